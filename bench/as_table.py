@@ -18,7 +18,7 @@ OF_EVERY_RUN = {
 
 
 def benchmarks_of(command, parser):
-    # Not from its output, because a benchmark's functions may print too.
+    # Read a file, not the output, because a benchmark's functions may print too.
     with tempfile.NamedTemporaryFile("r", suffix=".json") as file:
         told = subprocess.run(command + ["--benchmark_out=" + file.name, "--benchmark_out_format=json"],
                               stdout=subprocess.DEVNULL)

@@ -202,7 +202,7 @@ class reading {
       const auto& wi = all.wi[i];
       const auto& wo = all.wo[i];
       const auto at = gonio::render::to_grid_coordinates(wi[0], wi[1], wi[2], wo[0], wo[1], wo[2]);
-      places_.push_back(
+      positions_.push_back(
           3 * Eigen::Index{Interpolation == interpolation::nearest ? cells_.nearest(at) : cells_.around(at).number});
     }
   }
@@ -212,8 +212,8 @@ class reading {
                                  Interpolation == interpolation::nearest ? 4 : 8, 1>;
     numbers sum = numbers::Zero();
     const Eigen::Index h = 3 * cells_.step_h(), d = 3 * cells_.step_d();
-    for (const Eigen::Index place : places_)
-      for (const Eigen::Index row : {place, place + d, place + h, place + h + d}) {
+    for (const Eigen::Index position : positions_)
+      for (const Eigen::Index row : {position, position + d, position + h, position + h + d}) {
         numbers read;
         std::memcpy(read.data(), values_.data() + row, sizeof read);
         sum += read;
@@ -227,7 +227,7 @@ class reading {
  private:
   gonio::render::padded_grid cells_;
   std::vector<Stored, gonio::huge_page_allocator<Stored>> values_;
-  std::vector<Eigen::Index> places_;
+  std::vector<Eigen::Index> positions_;
 };
 
 template <class Stored, interpolation Interpolation>

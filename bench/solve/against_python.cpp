@@ -92,7 +92,7 @@ int main() {
   const std::size_t k = count - 1;
   save(folder / "rows.npy", rows.data(), rows.rows(), k);
   save(folder / "gram.npy", normal.gram().data(), k, k);
-  save(folder / "moment.npy", normal.rhs().data(), k, 1);
+  save(folder / "rhs.npy", normal.rhs().data(), k, 1);
 
   std::map<std::string, double> ours;
   for (const unsigned threads : {1u, 2u}) {

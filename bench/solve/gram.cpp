@@ -48,7 +48,7 @@ void eigen_float(benchmark::State& state) {
   count(state, columns);
 }
 
-/// In double it needs a copy of the rows, made here block by block.
+/// Eigen's update in double needs a copy of the rows, made here block by block.
 void eigen_double(benchmark::State& state) {
   const Eigen::Index columns = state.range(0), block = 256;
   const float_rows& rows = matrix(columns);

@@ -1,6 +1,6 @@
 """The counterpart of against_python.cpp: times numpy and scipy on the matrices in a folder, and prints JSON.
 
-usage: rivals.py FOLDER   (with rows.npy, gram.npy, moment.npy; OPENBLAS_NUM_THREADS set before)"""
+usage: rivals.py FOLDER   (with rows.npy, gram.npy, rhs.npy; OPENBLAS_NUM_THREADS set before)"""
 import json
 import subprocess
 import sys
@@ -31,11 +31,11 @@ def blas_library():
 folder = sys.argv[1]
 rows = np.load(folder + "/rows.npy")
 gram = np.load(folder + "/gram.npy")
-moment = np.load(folder + "/moment.npy").ravel()
+rhs = np.load(folder + "/rhs.npy").ravel()
 result = {}
 
-# To numpy, A'A of one array is a symmetric update. The faster of both layouts counts. In double, so does the faster of
-# two ways: one product of a copy converted before, and products of blocks converted on the way.
+# To numpy, A'A of one array is a symmetric update. The faster of both layouts counts. In double, the faster of two ways
+# counts: one product of a converted copy, and products of blocks that are converted one by one.
 columns = np.ascontiguousarray(rows.T)
 result["gram_float"] = min(best_of(5, lambda: rows.T @ rows), best_of(5, lambda: columns @ columns.T))
 
@@ -55,7 +55,7 @@ del columns, rows
 
 # min |A x - b| over x >= 0 with the given Cholesky factor of A'A.
 factor = cholesky(gram)
-right = solve_triangular(factor, moment, trans="T")
+right = solve_triangular(factor, rhs, trans="T")
 result["nnls"] = best_of(200, lambda: nnls(factor, right))
 
 result["blas"] = blas_library()

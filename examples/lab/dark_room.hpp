@@ -181,8 +181,8 @@ class dark_room {
 
   [[nodiscard]] double lamp_samples() const { return wrong_.lamp_radius > 0.0 ? 1.0 + ring : 1.0; }
 
-  /// Returns points that represent the lamp: its centre and a ring. Their mean squared distance from the centre is that
-  /// of the disc.
+  /// Returns points that represent the lamp: its centre and a ring. Their mean squared distance from the centre equals
+  /// the disc's.
   [[nodiscard]] std::vector<Eigen::Vector3d> lamp_points(const Eigen::Vector3d& lamp) const {
     std::vector<Eigen::Vector3d> points{lamp};
     if (!(wrong_.lamp_radius > 0.0)) return points;

@@ -10,7 +10,7 @@ namespace lab {
 struct probe_view {
   std::size_t rows = 512, columns = 512;
   gonio::capture::outline_circle outline{256.0, 256.0, 256.0};
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the camera, as of gonio::capture::light_probe
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the camera, as in gonio::capture::light_probe
   double photographer = 0.0;                           ///< radians around the camera's direction that are black
   int samples = 4;                                     ///< each pixel averages samples x samples rays
 

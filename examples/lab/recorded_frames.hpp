@@ -119,7 +119,7 @@ class recorded_frames {
     known->frames.emplace_back(seconds, frame["file"].text());
   }
 
-  /// Returns a search key. It differs between two pairs by less than twice the larger difference of their directions.
+  /// Returns a search key. The keys of two pairs differ by less than twice the larger difference of their directions.
   [[nodiscard]] static double key_of(const gonio::direction_pair& pair) {
     return pair.wi.dot(gonio::direction(0.61, 0.53, 0.59)) + pair.wo.dot(gonio::direction(0.37, 0.71, 0.43));
   }

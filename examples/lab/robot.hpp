@@ -65,8 +65,8 @@ class robot_arm {
 };
 static_assert(gonio::capture::positioner<robot_arm>);
 
-/// Robot and arc. A direction of the light is unreachable if the nearest lamp is more than `tolerance` away; else the
-/// pair is measured with that lamp.
+/// Robot and arc. A direction of the light is unreachable if the nearest lamp is more than `tolerance` away; otherwise
+/// the pair is measured with that lamp.
 class robot {
  public:
   explicit robot(dark_room& room, double tolerance = gonio::radians(0.5))

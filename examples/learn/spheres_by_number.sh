@@ -1,7 +1,7 @@
 #!/bin/sh
-# What 1, 2, 5, 10 and 20 measurements make of a material, as spheres with their Delta E, the truth at the right: a row
-# for each pair of a table and a prior that has not seen such a material. The directions are the first of those that
-# gonio design chooses; gonio reconstruct does the rest by default.
+# Draws reconstructions from 1, 2, 5, 10 and 20 measurements as spheres with their Delta E, the truth at the right: a
+# row for each pair of a table and a prior that has not seen such a material. The directions are the first ones that
+# gonio design chooses; gonio reconstruct has its defaults.
 #   gonio expand --formula red-paint -o red-paint.binary
 #   examples/learn/spheres_by_number.sh why-twenty-spheres.png red-paint.binary examples/data/materials.prior
 # GONIO is the tool (default: gonio).

@@ -45,6 +45,7 @@ void add_directions_measured(command& app, const team& processes);
 void add_models(command& app, const team& processes);
 void add_real_materials(command& app, const team& processes);
 void add_real_fits(command& app, const team& processes);
+void add_model_from_weights(command& app, const team& processes);
 void add_real_methods(command& app, const team& processes);
 void add_design_experiment(command& app, const team& processes);
 void add_in_plane(command& app, const team& processes);

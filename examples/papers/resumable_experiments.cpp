@@ -10,6 +10,7 @@ void add_resumable(command& app, const team& processes) {
   add_models(app, processes);
   add_real_materials(app, processes);
   add_real_fits(app, processes);
+  add_model_from_weights(app, processes);
   add_real_methods(app, processes);
   add_design_experiment(app, processes);
   add_in_plane(app, processes);

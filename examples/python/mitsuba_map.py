@@ -6,7 +6,7 @@
     sample = {"type": "rectangle", "bsdf": {"type": "gonio_map", "filename": "leaf.gsv"}}
 
 The first row of texels is at the top, v = 1. Each point has the BRDF of its texel; texels outside the sample are black.
-Values are those of `gonio.Map.brdf`.
+Values equal `gonio.Map.brdf`.
 """
 
 import drjit as dr

@@ -6,7 +6,7 @@
     sphere = {"type": "sphere", "bsdf": {"type": "gonio_prior", "components": 20}}
 
 `mi.traverse` finds the differentiable parameter `weights`, component by component: red, green and blue of each. Values
-are those of `gonio.Fit` with the same weights. `inverse_rendering.py` estimates weights from an image.
+equal `gonio.Fit` with the same weights. `inverse_rendering.py` estimates weights from an image.
 """
 
 import drjit as dr

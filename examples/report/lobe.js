@@ -43,10 +43,10 @@ function draw_lobe(canvas, reflects, uncertainty, { theta_i, turn, known }) {
   const context = canvas.getContext("2d"), style = getComputedStyle(canvas), colour = (name) => style.getPropertyValue(name);
   const lobe = lobe_of(reflects, uncertainty, theta_i), values = lobe.flatMap((row) => row.map((each) => each.value));
   const { radius, kind } = radius_of(values), largest = Math.max(...values.map(radius)) || 1;
-  const size = 0.44 * canvas.width, place = ([x, y]) => [0.5 * canvas.width + size * x, 0.74 * canvas.height - size * y];
+  const size = 0.44 * canvas.width, on_canvas = ([x, y]) => [0.5 * canvas.width + size * x, 0.74 * canvas.height - size * y];
   const path = (points) => {
     context.beginPath();
-    points.forEach((each) => context.lineTo(...place(projected(each, turn))));
+    points.forEach((each) => context.lineTo(...on_canvas(projected(each, turn))));
   };
   const line = (points, stroke, dashes = []) => {
     path(points);
@@ -63,7 +63,7 @@ function draw_lobe(canvas, reflects, uncertainty, { theta_i, turn, known }) {
     const base = known ? colour_of_known(share) : [88, 150, 214];
     context.fillStyle = context.strokeStyle = `rgb(${base.map((each) => each * (0.45 + 0.55 * shade))})`;
     context.beginPath();
-    drawn.forEach((each) => context.lineTo(...place(each)));
+    drawn.forEach((each) => context.lineTo(...on_canvas(each)));
     context.closePath();
     context.fill();
     context.lineWidth = 0.7;

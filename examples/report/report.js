@@ -127,9 +127,9 @@ function uncertainty_map() {
     ],
   });
   const worst = cells.reduce((a, b) => (a.percent > b.percent ? a : b)), best = cells.reduce((a, b) => (a.percent < b.percent ? a : b));
-  const place = (each) => `theta_h ${angle(each.theta_h[0])} to ${angle(each.theta_h[1])}, theta_d ${angle(each.theta_d[0])} to ${angle(each.theta_d[1])}`;
-  add(figure(chart, `Map of uncertainty over half and difference angle: best known at ${place(best)}, to ${digits(best.percent)} %; worst at ${place(worst)}, to ${digits(worst.percent)} %`,
-    `Best known: ${place(best)}, to ${percent(best.known_to)}. Least: ${place(worst)}, to ${percent(worst.known_to)}. gonio design --given says which directions to measure next.`,
+  const region = (each) => `theta_h ${angle(each.theta_h[0])} to ${angle(each.theta_h[1])}, theta_d ${angle(each.theta_d[0])} to ${angle(each.theta_d[1])}`;
+  add(figure(chart, `Map of uncertainty over half and difference angle: best known at ${region(best)}, to ${digits(best.percent)} %; worst at ${region(worst)}, to ${digits(worst.percent)} %`,
+    `Best known: ${region(best)}, to ${percent(best.known_to)}. Least: ${region(worst)}, to ${percent(worst.known_to)}. gonio design --given says which directions to measure next.`,
     ["theta_h", "theta_d", "known to"],
     cells.map((each) => [`${angle(each.theta_h[0])} to ${angle(each.theta_h[1])}`, `${angle(each.theta_d[0])} to ${angle(each.theta_d[1])}`, percent(each.known_to)])));
 }

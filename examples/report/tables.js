@@ -77,12 +77,12 @@ function grid_coordinates(n, wi, wo) {
 // Returns red, green and blue in sr^-1, interpolated between the eight nearest cells.
 function reflectance_at({ grid, shift, scale, texels }, n, wi, wo) {
   if (!(dot(n, wi) > 0 && dot(n, wo) > 0)) return [0, 0, 0];
-  const places = grid_coordinates(n, wi, wo).map((share, i) => share * grid[i] + shift - 0.5);
-  const lower = places.map(Math.floor), sum = [0, 0, 0, 0];
+  const coordinates = grid_coordinates(n, wi, wo).map((share, i) => share * grid[i] + shift - 0.5);
+  const lower = coordinates.map(Math.floor), sum = [0, 0, 0, 0];
   for (let corner = 0; corner < 8; ++corner) {
     let weight = 1;
     const [h, d, p] = lower.map((each, i) => {
-      const upper = (corner >> i) & 1, share = places[i] - each;
+      const upper = (corner >> i) & 1, share = coordinates[i] - each;
       weight *= upper ? share : 1 - share;
       return i === 2 ? (each + upper + grid[2]) % grid[2] : Math.min(Math.max(each + upper, 0), grid[i] - 1);
     });

@@ -71,7 +71,7 @@ class material_view {
   }
 
   // Changes the model to `vertices`, as read_obj returns them.
-  take_mesh(vertices) { this.mesh = this.made_of(mesh_vertex_shader, mesh_main, [["place", 3], ["towards", 3]], vertices); }
+  take_mesh(vertices) { this.mesh = this.made_of(mesh_vertex_shader, mesh_main, [["position", 3], ["towards", 3]], vertices); }
 
   drawn_as(shape) { return shape === "mesh" && this.mesh ? this.mesh : this.image; }
 

@@ -85,7 +85,7 @@ struct job {
   }
 
   /// Sets a value of the third image to NaN.
-  void spoil(std::size_t row) const {
+  void corrupt(std::size_t row) const {
     auto image = gonio::io::read_npy<float, 3>(folder / "image-2.npy");
     image(row, 7, 1) = std::nanf("");
     gonio::io::write_npy(folder / "image-2.npy", image);
@@ -174,14 +174,14 @@ TEST_CASE("gonio-mpi svbrdf: bad input of any rank is refused in one line") {
   check_refused_by_all(in_ranks(2, "svbrdf nothing.json -o map.gsv"), {"nothing.json", "No such file"});
   check_refused_by_all(in_ranks(2, given.command("map.gsv") + " --et 3"), {"'--et'", "--eta"});
   // Rank 1 has the bands 1, 3, ...: row 20 is in band 1, which has rows from 16 on.
-  given.spoil(20);
+  given.corrupt(20);
   check_refused_by_all(in_ranks(2, given.command("map.gsv")), {"rank 1", "image-2.npy", "row 20, column 7"});
   CHECK(scratch::fs::exists(given.folder / "map.gsv.part"));
 }
 
 TEST_CASE("gonio-mpi: ranks that read different inputs are refused") {
   const job given, other;
-  other.spoil(0);  // the first row is compared
+  other.corrupt(0);  // the first row is compared
   scratch::fs::create_directory(given.folder / "here");
   scratch::fs::create_directory(given.folder / "there");
   // As on two machines: the same names, but other files.

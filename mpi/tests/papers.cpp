@@ -28,7 +28,7 @@ struct database {
   [[nodiscard]] std::string at(const char* name) const { return (folder / name).string(); }
 };
 
-/// Checks that the state and the output are those of gonio-papers for any number of ranks and any continuation.
+/// Checks that state and output equal gonio-papers' for any number of ranks and any continuation.
 void check_same(const database& given, const std::string& experiment) {
   CAPTURE(experiment);
   const std::string arguments = experiment + " --networks " + given.at("n.npy") + " --threads 1 --state ";

@@ -82,10 +82,10 @@ judged_ear judge_ear(const gonio::shape::shape_model& model, const synthetic::ea
   judged_ear judged;
   judged.missing = hole.size();
   const auto judge = [&](std::string name, const gonio::shape::point_columns& vertices, const auto& to_model) {
-    gonio::shape::point_columns placed = to_model.inverse()(vertices);
-    const gonio::shape::point_columns recovered = placed(Eigen::all, hole);
+    gonio::shape::point_columns in_scan = to_model.inverse()(vertices);
+    const gonio::shape::point_columns recovered = in_scan(Eigen::all, hole);
     judged.ways.push_back(
-        {std::move(name), std::move(placed), gonio::shape::distance_to(complete, recovered, options.threads)});
+        {std::move(name), std::move(in_scan), gonio::shape::distance_to(complete, recovered, options.threads)});
   };
   const gonio::shape::recovered_shape ours = gonio::shape::recover(model, index, pose, {}, options.threads);
   gonio::shape::point_columns shown = ours.surface.vertices;

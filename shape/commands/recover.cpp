@@ -55,9 +55,9 @@ void print_how_sure(const gonio::shape::cross_validated_uncertainty& uncertainty
 }
 
 /// Returns the initial pose: as given, or by shape context.
-gonio::shape::similarity_transform begin_pose(const shape_recover_command& options,
-                                              const gonio::shape::shape_model& model,
-                                              const gonio::shape::triangle_mesh& scan) {
+gonio::shape::similarity_transform initial_pose(const shape_recover_command& options,
+                                                const gonio::shape::shape_model& model,
+                                                const gonio::shape::triangle_mesh& scan) {
   if (!options.pose.empty()) return gonio::io::read_pose(options.pose);
   return in_file(options.scan, [&] { return find_pose(model, scan, options.threads); });
 }
@@ -71,7 +71,7 @@ void recover_shape(const shape_recover_command& options) {
   how.coarse.holds_pose = how.fine.holds_pose = options.holds_pose;
   // Recover the shape in the scan's coordinates.
   const gonio::shape::surface_index index = in_file(options.scan, [&] { return gonio::shape::surface_index(scan); });
-  const gonio::shape::similarity_transform pose = begin_pose(options, model, scan);
+  const gonio::shape::similarity_transform pose = initial_pose(options, model, scan);
   const gonio::shape::recovered_shape found =
       in_file(options.scan, [&] { return gonio::shape::recover(model, index, pose, how, options.threads); });
   gonio::shape::triangle_mesh recovered = model.mesh(found.pose.inverse()(found.surface.vertices));

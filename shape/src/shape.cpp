@@ -1,4 +1,4 @@
-// The implementations of shape/ that use the model; src/shape_mesh.cpp has all other implementations.
+// The implementations of shape/ that use the model; shape_mesh.cpp and shape_io.cpp have the others.
 
 #include <gonio/shape/impl/bootstrap.ipp>
 #include <gonio/shape/impl/correspondence.ipp>

@@ -52,7 +52,7 @@ struct hole_options {
 /// A mesh on a surface with the surface's normals and parameters.
 struct sampled_surface {
   gonio::shape::triangle_mesh mesh;
-  parameter_columns places;
+  parameter_columns parameters;
   gonio::shape::point_columns normals;
 
   /// Removes the triangles that have a vertex for which `property` is false. Then removes parts joined only at a point,
@@ -138,7 +138,7 @@ struct sampled_surface {
       for (int corner = 0; corner < 3; ++corner) mesh.triangles(corner, t) = number[triangles[t][corner]];
     mesh.vertices = gonio::shape::point_columns(mesh.vertices(Eigen::all, left));
     normals = gonio::shape::point_columns(normals(Eigen::all, left));
-    places = parameter_columns(places(Eigen::all, left));
+    parameters = parameter_columns(parameters(Eigen::all, left));
     return left;
   }
 };
@@ -165,9 +165,9 @@ class ear_hole {
   }
 
   /// Returns whether a point (u, v) is in the hole.
-  [[nodiscard]] bool contains(const Eigen::Vector2d& place) const {
-    const double along = (place.x() - options_.u) / half_u_;
-    const double round = std::remainder(place.y() - v_, 2.0 * std::numbers::pi) / (std::numbers::pi * options_.share);
+  [[nodiscard]] bool contains(const Eigen::Vector2d& point) const {
+    const double along = (point.x() - options_.u) / half_u_;
+    const double round = std::remainder(point.y() - v_, 2.0 * std::numbers::pi) / (std::numbers::pi * options_.share);
     const double direction = std::atan2(round, along);
     double edge = 1.0;
     for (Eigen::Index i = 0; i < std::ssize(waves_); ++i)
@@ -178,8 +178,8 @@ class ear_hole {
 
   /// Removes the hole's triangles from a scan and disturbs its edge. Throws gonio::error if nothing remains.
   void cut(sampled_surface& sampled, number_source& numbers) const {
-    std::vector<bool> inside, on_edge(sampled.places.cols(), false);
-    for (const auto& place : sampled.places.colwise()) inside.push_back(contains(place));
+    std::vector<bool> inside, on_edge(sampled.parameters.cols(), false);
+    for (const auto& point : sampled.parameters.colwise()) inside.push_back(contains(point));
     const auto is_inside = [&](Eigen::Index vertex) { return inside[vertex]; };
     for (const auto& corners : sampled.mesh.triangles.colwise())
       if (is_inside(corners[0]) || is_inside(corners[1]) || is_inside(corners[2]))
@@ -211,8 +211,8 @@ class ear_hole {
   /// Adds triangles from border edges into the hole, each with its own vertex.
   void add_flaps(sampled_surface& sampled, const std::vector<bool>& on_edge, number_source& numbers) const {
     if (options_.flaps <= 0.0) return;
-    std::map<std::pair<int, int>, int>
-        opposite;  // vertex opposite to each half-edge; those without a partner are on the border
+    // The vertex opposite to each half-edge. Half-edges without a partner are on the border.
+    std::map<std::pair<int, int>, int> opposite;
     for (const auto& corners : sampled.mesh.triangles.colwise())
       for (int side = 0; side < 3; ++side) opposite[{corners[side], corners[(side + 1) % 3]}] = corners[(side + 2) % 3];
     std::vector<Eigen::Vector3i> flaps;
@@ -223,7 +223,7 @@ class ear_hole {
         continue;
       const Eigen::Vector3d middle = 0.5 * (sampled.mesh.vertices.col(from) + sampled.mesh.vertices.col(to));
       const double reach = numbers.uniform(0.7, 2.0), off = 0.4 * numbers.normal();
-      flaps.emplace_back(to, from, static_cast<int>(sampled.places.cols()) + static_cast<int>(tips.size()));
+      flaps.emplace_back(to, from, static_cast<int>(sampled.parameters.cols()) + static_cast<int>(tips.size()));
       tips.emplace_back(middle + reach * (middle - sampled.mesh.vertices.col(across)) +
                         off * sampled.normals.col(from));
     }
@@ -232,17 +232,17 @@ class ear_hole {
 
   static void append(sampled_surface& sampled, const std::vector<Eigen::Vector3i>& flaps,
                      const std::vector<Eigen::Vector3d>& tips) {
-    const Eigen::Index vertices = sampled.places.cols(), triangles = sampled.mesh.triangles.cols();
+    const Eigen::Index vertices = sampled.parameters.cols(), triangles = sampled.mesh.triangles.cols();
     const Eigen::Index more = std::ssize(flaps);
     sampled.mesh.vertices.conservativeResize(Eigen::NoChange, vertices + more);
     sampled.normals.conservativeResize(Eigen::NoChange, vertices + more);
-    sampled.places.conservativeResize(Eigen::NoChange, vertices + more);
+    sampled.parameters.conservativeResize(Eigen::NoChange, vertices + more);
     sampled.mesh.triangles.conservativeResize(Eigen::NoChange, triangles + more);
     for (Eigen::Index i = 0; i < more; ++i) {
       const Eigen::Index at = i;
       sampled.mesh.vertices.col(vertices + i) = tips[at];
       sampled.normals.col(vertices + i) = sampled.normals.col(flaps[at][0]).eval();
-      sampled.places.col(vertices + i) = sampled.places.col(flaps[at][0]).eval();
+      sampled.parameters.col(vertices + i) = sampled.parameters.col(flaps[at][0]).eval();
       sampled.mesh.triangles.col(triangles + i) = flaps[at];
     }
   }

@@ -32,7 +32,7 @@ using parametric_surface = std::function<Eigen::Vector3d(double u, double v)>;
 
 struct parametric_mesh {
   gonio::shape::triangle_mesh mesh;
-  parameter_columns places;
+  parameter_columns parameters;
 };
 
 struct irregularity {
@@ -44,7 +44,7 @@ struct irregularity {
 
 namespace detail {
 
-/// Makes rings of vertices around a parametric surface, at distances for near-equilateral triangles.
+/// Makes rings of vertices around a parametric surface, spaced for near-equilateral triangles.
 class ring_mesher {
  public:
   ring_mesher(const parametric_surface& surface, double from, std::size_t vertices,
@@ -57,13 +57,13 @@ class ring_mesher {
   }
 
   [[nodiscard]] parametric_mesh mesh() {
-    for (std::size_t ring = 0; ring < counts_.size(); ++ring) place_ring(ring);
-    places_.emplace_back(1.0, 0.0);
+    for (std::size_t ring = 0; ring < counts_.size(); ++ring) add_ring(ring);
+    parameters_.emplace_back(1.0, 0.0);
     points_.push_back(surface_(1.0, 0.0));
     for (std::size_t ring = 0; ring + 1 < counts_.size(); ++ring) stitch(ring);
     close_tip();
     return {{columns_of<gonio::shape::point_columns>(points_), columns_of<gonio::shape::triangle_columns>(triangles_)},
-            columns_of<parameter_columns>(places_)};
+            columns_of<parameter_columns>(parameters_)};
   }
 
  private:
@@ -117,7 +117,8 @@ class ring_mesher {
     return counts;
   }
 
-  /// Finds the smallest spacing that needs at most `vertices` vertices, then adds one to some rings to reach it.
+  /// Finds the smallest spacing that needs at most `vertices` vertices, then adds a vertex to some rings to get exactly
+  /// `vertices`.
   void choose_counts(std::size_t vertices) {
     const auto total = [](const std::vector<Eigen::Index>& counts) {
       return std::accumulate(counts.begin(), counts.end(), std::size_t{1});
@@ -132,7 +133,7 @@ class ring_mesher {
       ++counts_[i * counts_.size() / all];
   }
 
-  void place_ring(std::size_t ring) {
+  void add_ring(std::size_t ring) {
     const std::size_t count = counts_[ring];
     const double gap = distances_.back() / static_cast<double>(counts_.size());
     const double level = level_at(gap * static_cast<double>(ring)), u = from_ + (1.0 - from_) * level / levels;
@@ -140,25 +141,25 @@ class ring_mesher {
     // The step in u to the next ring, for the jitter.
     const double step = (1.0 - from_) * (level_at(gap * static_cast<double>(ring + 1)) - level) / levels;
     const double start = irregular_ ? numbers_.uniform() : 0.5 * static_cast<double>(ring % 2);
-    firsts_.push_back(places_.size());
+    firsts_.push_back(parameters_.size());
     for (std::size_t i = 0; i < count; ++i) {
-      double place = static_cast<double>(i) + start, height = u;
+      double position = static_cast<double>(i) + start, height = u;
       if (irregular_) {
-        place += irregular_->jitter * numbers_.uniform(-1.0, 1.0);
-        // A jitter below one step keeps the last ring from the tip.
+        position += irregular_->jitter * numbers_.uniform(-1.0, 1.0);
+        // The jitter is below one step, so the last ring does not reach the tip.
         height += step * irregular_->jitter * numbers_.uniform(-1.0, 1.0);
       }
-      const double v = angle_at(lengths, place / static_cast<double>(count));
+      const double v = angle_at(lengths, position / static_cast<double>(count));
       if (irregular_) height += skew_at(u, v);
-      places_.emplace_back(height, v);
+      parameters_.emplace_back(height, v);
       points_.push_back(surface_(height, v));
     }
   }
 
   /// Returns the shift in u of a vertex at v. It fades at both ends of the canal.
   [[nodiscard]] double skew_at(double u, double v) const {
-    const double place = (u - from_) / (1.0 - from_);
-    return irregular_->skew * 4.0 * place * (1.0 - place) * std::sin(v + skew_phase_);
+    const double along = (u - from_) / (1.0 - from_);
+    return irregular_->skew * 4.0 * along * (1.0 - along) * std::sin(v + skew_phase_);
   }
 
   [[nodiscard]] std::vector<double> lengths_round(double u) const {
@@ -229,7 +230,7 @@ class ring_mesher {
   double skew_phase_ = 0.0;
   std::vector<double> circumferences_, distances_;  // per level
   std::vector<Eigen::Index> counts_, firsts_;       // per ring
-  std::vector<Eigen::Vector2d> places_;
+  std::vector<Eigen::Vector2d> parameters_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3i> triangles_;
 };
@@ -250,11 +251,12 @@ class ring_mesher {
 
 parametric_surface surface_of(ear_canal&&) = delete;
 
-/// Returns the points of an individual at some parameters: 3 x places.
+/// Returns the points of an individual at some parameters: 3 x parameters.
 [[nodiscard]] inline gonio::shape::point_columns points_at(const ear_canal& individual,
-                                                           const parameter_columns& places) {
-  gonio::shape::point_columns points(3, places.cols());
-  for (Eigen::Index i = 0; i < places.cols(); ++i) points.col(i) = individual.at(places(0, i), places(1, i));
+                                                           const parameter_columns& parameters) {
+  gonio::shape::point_columns points(3, parameters.cols());
+  for (Eigen::Index i = 0; i < parameters.cols(); ++i)
+    points.col(i) = individual.at(parameters(0, i), parameters(1, i));
   return points;
 }
 
@@ -268,11 +270,11 @@ class ear_canal_template {
 
   /// Returns the mesh on the family's mean.
   [[nodiscard]] const gonio::shape::triangle_mesh& mesh() const noexcept { return on_mean_.mesh; }
-  [[nodiscard]] const parameter_columns& places() const noexcept { return on_mean_.places; }
+  [[nodiscard]] const parameter_columns& parameters() const noexcept { return on_mean_.parameters; }
 
   /// Returns the true positions of the vertices on an individual: 3 x vertices.
   [[nodiscard]] gonio::shape::point_columns corresponded(const ear_canal& individual) const {
-    return points_at(individual, on_mean_.places);
+    return points_at(individual, on_mean_.parameters);
   }
 
  private:

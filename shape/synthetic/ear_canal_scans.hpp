@@ -1,5 +1,5 @@
 #pragma once
-/// Scans of the ear canals of `synthetic::ear_canal_family`, with their true values: randomly triangulated and placed,
+/// Scans of the ear canals of `synthetic::ear_canal_family`, with their true values: randomly triangulated and posed,
 /// noisy, with holes, and with the defects that a bootstrap must reject.
 
 #include "ear_canal_holes.hpp"
@@ -49,7 +49,7 @@ struct scan_options {
 /// A scan and its true values.
 struct ear_scan {
   gonio::shape::triangle_mesh mesh;
-  parameter_columns places;           ///< (u, v) of each vertex of `mesh`; for spurious flaps, that of a neighbour
+  parameter_columns parameters;       ///< (u, v) of each vertex of `mesh`; for spurious flaps, a neighbour's
   gonio::shape::point_columns truth;  ///< the template's vertices, in the scan's coordinates; empty for another object
   /// Whether each vertex of the template is on the scanned part of the surface, up to a triangle's size.
   std::vector<bool> covered;
@@ -60,7 +60,7 @@ struct ear_scan {
   ear_canal individual;  ///< for another object, the individual that it replaces
 
   /// Returns a point of the individual in the scan's coordinates.
-  [[nodiscard]] Eigen::Vector3d placed(double u, double v) const { return placement * individual.at(u, v); }
+  [[nodiscard]] Eigen::Vector3d point_at(double u, double v) const { return placement * individual.at(u, v); }
 };
 
 namespace detail {
@@ -124,8 +124,8 @@ class scanner {
       hole->cut(sampled, numbers);
     }
     if (options_.defect == scan_defect::half) cut_in_half(sampled);
-    ear_scan made{placed(std::move(sampled.mesh), placement),
-                  std::move(sampled.places),
+    ear_scan made{posed(std::move(sampled.mesh), placement),
+                  std::move(sampled.parameters),
                   {},
                   {},
                   {},
@@ -134,10 +134,10 @@ class scanner {
                   individual_};
     if (options_.defect != scan_defect::other_object) {
       made.truth = placement * common.corresponded(individual_);
-      for (const auto& place : common.places().colwise())
-        made.covered.push_back(is_scanned(place) && !(hole && hole->contains(place)));
+      for (const auto& point : common.parameters().colwise())
+        made.covered.push_back(is_scanned(point) && !(hole && hole->contains(point)));
     }
-    if (options_.complete_vertices > 0) made.complete = placed(complete(), placement);
+    if (options_.complete_vertices > 0) made.complete = posed(complete(), placement);
     return made;
   }
 
@@ -167,11 +167,11 @@ class scanner {
     const irregularity irregular{.seed = numbers.seed()};
     const auto slanted = [this](double u, double v) { return surface_(u + slant_at(u, v), v); };
     parametric_mesh made = mesh_of(slanted, cut_, options_.vertices > 0 ? options_.vertices : drawn, irregular);
-    for (auto place : made.places.colwise()) place.x() += slant_at(place.x(), place.y());
-    gonio::shape::point_columns normals(3, made.places.cols());
+    for (auto point : made.parameters.colwise()) point.x() += slant_at(point.x(), point.y());
+    gonio::shape::point_columns normals(3, made.parameters.cols());
     for (Eigen::Index i = 0; i < normals.cols(); ++i)
-      normals.col(i) = normal_of(surface_, made.places(0, i), made.places(1, i));
-    return {std::move(made.mesh), std::move(made.places), std::move(normals)};
+      normals.col(i) = normal_of(surface_, made.parameters(0, i), made.parameters(1, i));
+    return {std::move(made.mesh), std::move(made.parameters), std::move(normals)};
   }
 
   /// Returns the shift in u of the slanted cut at the outer end. It fades inwards.
@@ -188,14 +188,14 @@ class scanner {
 
   void cut_in_half(sampled_surface& sampled) {
     const bool keep_outer = keeps_outer_half();
-    sampled.keep_where([&](Eigen::Index vertex) { return (sampled.places(0, vertex) < 0.5) == keep_outer; });
+    sampled.keep_where([&](Eigen::Index vertex) { return (sampled.parameters(0, vertex) < 0.5) == keep_outer; });
   }
 
   [[nodiscard]] bool keeps_outer_half() const { return number_source(own_seeds_[5]).uniform() < 0.5; }
 
-  [[nodiscard]] bool is_scanned(const Eigen::Vector2d& place) const {
-    if (place.x() < cut_ + slant_at(cut_, place.y())) return false;
-    return options_.defect != scan_defect::half || (place.x() < 0.5) == keeps_outer_half();
+  [[nodiscard]] bool is_scanned(const Eigen::Vector2d& point) const {
+    if (point.x() < cut_ + slant_at(cut_, point.y())) return false;
+    return options_.defect != scan_defect::half || (point.x() < 0.5) == keeps_outer_half();
   }
 
   [[nodiscard]] gonio::shape::triangle_mesh complete() const {
@@ -203,8 +203,8 @@ class scanner {
     return mesh_of(surface_, from, options_.complete_vertices).mesh;
   }
 
-  [[nodiscard]] static gonio::shape::triangle_mesh placed(gonio::shape::triangle_mesh mesh,
-                                                          const Eigen::Affine3d& placement) {
+  [[nodiscard]] static gonio::shape::triangle_mesh posed(gonio::shape::triangle_mesh mesh,
+                                                         const Eigen::Affine3d& placement) {
     mesh.vertices = (placement * mesh.vertices).eval();
     if (placement.linear().determinant() < 0.0) mesh.triangles.row(0).swap(mesh.triangles.row(1));
     return mesh;

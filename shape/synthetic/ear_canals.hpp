@@ -1,8 +1,8 @@
 #pragma once
 /// Synthetic ear canals: a smooth family of surfaces with known correspondences, for tests and teaching.
 ///
-/// They follow the description of the data of "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU
-/// 2016, contribution C.V), section 1.1: left ears with a bowl at the outer end, two bends and the blunt tip of an
+/// They follow the data described in "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016,
+/// contribution C.V), section 1.1: left ears with a bowl at the outer end, two bends and the blunt tip of an
 /// impression. Millimetres. The vertical axis is y, inwards is about -x, the back of the head is -z.
 
 #include <gonio/core/error.hpp>
@@ -157,7 +157,7 @@ class ear_canal {
     double a, b;
   };
 
-  /// Reads the latent numbers one by one, scaled; the strong ones come first within each kind.
+  /// Reads the latent numbers one by one, scaled; within each kind, the numbers with the largest effect come first.
   class latent_reader {
    public:
     explicit latent_reader(const std::vector<double>& all) : all_(all) {}
@@ -237,9 +237,9 @@ class ear_canal {
   [[nodiscard]] Eigen::Vector3d turning_at(double u) const {
     Eigen::Vector3d turning(twist_, cosine_sum(wander_[0], u), cosine_sum(wander_[1], u));
     for (const bend& one : bends_) {
-      const double place = (u - one.u) / one.width;
-      if (std::abs(place) >= 1.0) continue;
-      const double rate = one.angle * (1.0 + std::cos(std::numbers::pi * place)) / (2.0 * one.width);
+      const double offset = (u - one.u) / one.width;
+      if (std::abs(offset) >= 1.0) continue;
+      const double rate = one.angle * (1.0 + std::cos(std::numbers::pi * offset)) / (2.0 * one.width);
       turning += rate * Eigen::Vector3d(0.0, -std::sin(one.plane), std::cos(one.plane));
     }
     return turning;
@@ -271,9 +271,9 @@ class ear_canal {
   }
 
   [[nodiscard]] station station_at(double u) const {
-    const double place = std::clamp((u - outermost) / (cap_begin - outermost), 0.0, 1.0) * stations;
-    const auto first = static_cast<std::size_t>(std::min(place, stations - 1.0));
-    const double share = place - static_cast<double>(first);
+    const double position = std::clamp((u - outermost) / (cap_begin - outermost), 0.0, 1.0) * stations;
+    const auto first = static_cast<std::size_t>(std::min(position, stations - 1.0));
+    const double share = position - static_cast<double>(first);
     const station &low = line_[first], &high = line_[first + 1];
     // Neighbouring frames are so close that any interpolation works.
     const Eigen::Vector4d frame = (1.0 - share) * low.frame.coeffs() + share * high.frame.coeffs();

@@ -35,7 +35,7 @@ class ear_study {
   }
 
   /// Returns a scan of an ear that is in no model. Each has its own random source, so the held-out ears do not depend
-  /// on the number of learned ones.
+  /// on the number of learned ears.
   [[nodiscard]] ear_scan held_out(Eigen::Index number, const scan_options& how) const {
     number_source seeds(seed_ + 1'000'003 * (number + 1));
     const std::uint64_t individual = seeds.seed(), scanner = seeds.seed();
@@ -46,7 +46,7 @@ class ear_study {
   [[nodiscard]] std::vector<Eigen::Index> hole_of(const ear_scan& scan) const {
     std::vector<Eigen::Index> hole;
     for (std::size_t v = 0; v < scan.covered.size(); ++v)
-      if (!scan.covered[v] && common_.places()(0, v) > 0.1) hole.push_back(v);
+      if (!scan.covered[v] && common_.parameters()(0, v) > 0.1) hole.push_back(v);
     return hole;
   }
 

@@ -71,7 +71,7 @@ TEST_CASE("without weights an alignment is Eigen's umeyama") {
   }));
 }
 
-TEST_CASE("a weight of k is k points, and 0 is none") {
+TEST_CASE("a weight of k counts as k points, and 0 as none") {
   CHECK(rc::check([] {
     const alignment_kind kind = any_kind();
     const point_columns from = scattered_points(6, any_alignment_seed()),
@@ -125,7 +125,7 @@ TEST_CASE("transforms compose and are undone as matrices are") {
   CHECK((pose(Eigen::Vector3d(1.0, 0.0, 0.0)) - Eigen::Vector3d(0.0, 2.0, 1.0)).norm() < 1e-12);
 }
 
-TEST_CASE("what leaves an alignment undetermined is refused") {
+TEST_CASE("points that leave an alignment undetermined are refused") {
   const point_columns from = scattered_points(5, 1), onto = scattered_points(5, 2);
   const auto refused = [](const point_columns& a, const point_columns& b, const Eigen::VectorXd& weights,
                           const char* why) {
@@ -204,7 +204,7 @@ TEST_CASE("the mean of similar shapes keeps their mean size") {
     CHECK(difference(align(shape, mean, alignment_kind::similarity), {}) < 1e-6);
 }
 
-TEST_CASE("what is no set of corresponded shapes is refused") {
+TEST_CASE("shapes that do not correspond are refused") {
   const auto shapes = synthetic_shapes(10, 4, 2, 5);
   const auto refused = [](const std::vector<point_columns>& set, const gonio::shape::procrustes_options& options,
                           const char* why) {

@@ -32,7 +32,7 @@ TEST_CASE("a measured uncertainty holds the true vertices of scans, along the su
                                       normals = gonio::shape::vertex_normals(found.surface);
     for (std::size_t v = 0; v < scan.covered.size(); ++v) {
       const Eigen::Index vertex = v;
-      if (scan.covered[v] || ears.common.places()(0, vertex) <= 0.1) continue;
+      if (scan.covered[v] || ears.common.parameters()(0, vertex) <= 0.1) continue;
       const Eigen::Matrix3d covariance = measured.covariance(vertex);
       const Eigen::Vector3d off = found.surface.vertices.col(vertex) - truth.col(vertex);
       inside += off.dot(covariance.llt().solve(off)) <= measured.squared_radius(0.95);
@@ -48,7 +48,7 @@ TEST_CASE("a measured uncertainty holds the true vertices of scans, along the su
   CHECK(along > across);  // vertices slide
 }
 
-TEST_CASE("it is the same for any number of threads, and another for another seed") {
+TEST_CASE("the uncertainty is the same for any number of threads, and differs for another seed") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(2, small_ears::with_hole());
   const gonio::shape::surface_index index(scan.mesh);
@@ -73,7 +73,7 @@ TEST_CASE("it is the same for any number of threads, and another for another see
     CHECK_THROWS_AS((void)one.squared_radius(share), gonio::error);
 }
 
-TEST_CASE("trials that cannot be made are refused by a sentence") {
+TEST_CASE("impossible numbers of trials or parts are refused") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(1);
   const gonio::shape::surface_index index(scan.mesh);

@@ -63,12 +63,12 @@ bool uses_all_vertices(const gonio::shape::triangle_mesh& mesh) {
 
 /// Returns the fraction of triangles whose normals agree with the surface's.
 double share_outwards(const synthetic::ear_canal& individual, const gonio::shape::triangle_mesh& mesh,
-                      const synthetic::parameter_columns& places) {
+                      const synthetic::parameter_columns& parameters) {
   const gonio::shape::point_columns normals = gonio::shape::area_normals(mesh);
   double outwards = 0.0;
   for (Eigen::Index t = 0; t < normals.cols(); ++t) {
-    const Eigen::Vector2d place = places.col(mesh.triangles(0, t));
-    if (normals.col(t).dot(individual.normal(place.x(), place.y())) > 0.0) outwards += 1.0;
+    const Eigen::Vector2d point = parameters.col(mesh.triangles(0, t));
+    if (normals.col(t).dot(individual.normal(point.x(), point.y())) > 0.0) outwards += 1.0;
   }
   return outwards / static_cast<double>(normals.cols());
 }
@@ -104,18 +104,18 @@ bool equal_columns(const Columns& first, const Columns& second) {
 
 bool equal_scans(const synthetic::ear_scan& first, const synthetic::ear_scan& second) {
   return equal_columns(first.mesh.vertices, second.mesh.vertices) &&
-         equal_columns(first.mesh.triangles, second.mesh.triangles) && equal_columns(first.places, second.places) &&
-         equal_columns(first.truth, second.truth) && first.covered == second.covered &&
-         equal_columns(first.complete.vertices, second.complete.vertices) && first.defect == second.defect &&
-         first.placement.matrix() == second.placement.matrix();
+         equal_columns(first.mesh.triangles, second.mesh.triangles) &&
+         equal_columns(first.parameters, second.parameters) && equal_columns(first.truth, second.truth) &&
+         first.covered == second.covered && equal_columns(first.complete.vertices, second.complete.vertices) &&
+         first.defect == second.defect && first.placement.matrix() == second.placement.matrix();
 }
 
 /// Returns the distances of a scan's vertices from their positions on the individual, along the normal.
 std::vector<double> offsets_of(const synthetic::ear_scan& scan) {
   const Eigen::Affine3d back = scan.placement.inverse();
   std::vector<double> offsets;
-  for (Eigen::Index i = 0; i < scan.places.cols(); ++i) {
-    const double u = scan.places(0, i), v = scan.places(1, i);
+  for (Eigen::Index i = 0; i < scan.parameters.cols(); ++i) {
+    const double u = scan.parameters(0, i), v = scan.parameters(1, i);
     offsets.push_back((back * scan.mesh.vertices.col(i) - scan.individual.at(u, v)).dot(scan.individual.normal(u, v)));
   }
   return offsets;
@@ -143,7 +143,7 @@ TEST_CASE("the template of ear canals has 3096 vertices and near-equilateral tri
   CHECK_NOTHROW(gonio::shape::mesh_topology{mesh});
   CHECK(euler_number(mesh) == 1);  // a disc: open outside, closed at the tip
   CHECK(uses_all_vertices(mesh));
-  CHECK(share_outwards(synthetic::ear_canal_family::mean(), mesh, ear_template().places()) == 1.0);
+  CHECK(share_outwards(synthetic::ear_canal_family::mean(), mesh, ear_template().parameters()) == 1.0);
   const std::vector<double> angles = smallest_angles(mesh);
   MESSAGE("smallest angles of the template in degrees: least " << angles.front() << ", 20th percentile "
                                                                << angles[angles.size() / 5]);
@@ -192,7 +192,7 @@ TEST_CASE("an ear canal is regular, inwards, upright and does not intersect itse
     mesh.vertices = coarse.corresponded(individual);
     CHECK(individual.regularity() > 0.15);
     CHECK_FALSE(intersects_itself(mesh));
-    CHECK(share_outwards(individual, mesh, coarse.places()) > 0.99);
+    CHECK(share_outwards(individual, mesh, coarse.parameters()) > 0.99);
     const Eigen::Vector3d inwards = (individual.centre(1.0) - individual.centre(0.0)).normalized();
     CHECK(inwards.x() < -0.75);
     double length = 0.0;
@@ -247,9 +247,9 @@ TEST_CASE("scans of ear canals are surfaces, with and without holes") {
     CHECK(whole.mesh.vertices.cols() == 1500);
     CHECK_NOTHROW(gonio::shape::mesh_topology{whole.mesh});
     CHECK(euler_number(whole.mesh) == 1);
-    gonio::shape::triangle_mesh unplaced = whole.mesh;
-    unplaced.vertices = whole.placement.inverse() * unplaced.vertices;
-    CHECK(share_outwards(individual, unplaced, whole.places) > 0.999);
+    gonio::shape::triangle_mesh unposed = whole.mesh;
+    unposed.vertices = whole.placement.inverse() * unposed.vertices;
+    CHECK(share_outwards(individual, unposed, whole.parameters) > 0.999);
 
     for (const bool large : {false, true}) {
       options.hole = large ? synthetic::hole_options::large() : synthetic::hole_options::small();
@@ -260,7 +260,7 @@ TEST_CASE("scans of ear canals are surfaces, with and without holes") {
       CHECK_NOTHROW(gonio::shape::mesh_topology{holed.mesh});
       CHECK(euler_number(holed.mesh) == 0);  // a disc with a hole
       CHECK(uses_all_vertices(holed.mesh));
-      CHECK(holed.mesh.vertices.cols() == holed.places.cols());
+      CHECK(holed.mesh.vertices.cols() == holed.parameters.cols());
       CHECK(holed.truth == whole.truth);
     }
   }
@@ -277,7 +277,7 @@ TEST_CASE("scans are triangulated by chance") {
     CHECK(scan->mesh.vertices.cols() <= 15000);
   }
   CHECK(first.mesh.vertices.cols() != second.mesh.vertices.cols());
-  CHECK(std::abs(first.places.row(0).minCoeff() - second.places.row(0).minCoeff()) > 1e-4);
+  CHECK(std::abs(first.parameters.row(0).minCoeff() - second.parameters.row(0).minCoeff()) > 1e-4);
   CHECK(first.complete.vertices.cols() == 0);
 }
 
@@ -292,8 +292,8 @@ TEST_CASE("the truth of a scan lies on the complete surface") {
     double farthest = 0.0, to_scan = 0.0;
     for (Eigen::Index i = 0; i < scan.truth.cols(); i += 7) {
       const Eigen::Vector3d point = scan.truth.col(i);
-      const Eigen::Vector2d place = ear_template().places().col(i);
-      CHECK((point - scan.placed(place.x(), place.y())).norm() < 1e-12);
+      const Eigen::Vector2d parameters = ear_template().parameters().col(i);
+      CHECK((point - scan.point_at(parameters.x(), parameters.y())).norm() < 1e-12);
       farthest = std::max(farthest, complete.closest(point).distance);
       if (scan.covered[i]) to_scan = std::max(to_scan, scanned.closest(point).distance);
     }
@@ -302,7 +302,7 @@ TEST_CASE("the truth of a scan lies on the complete surface") {
   }
 }
 
-TEST_CASE("a scan's noise and pose are those asked for") {
+TEST_CASE("a scan's noise and pose are as requested") {
   const synthetic::ear_canal individual = synthetic::ear_canal_family().draw(3);
   synthetic::scan_options options = quick_ear_scan();
   CHECK(root_mean_square(offsets_of(synthetic::scan_of(individual, ear_template(), 1, options))) ==
@@ -320,7 +320,7 @@ TEST_CASE("a scan's noise and pose are those asked for") {
   CHECK(still.placement.matrix() == Eigen::Matrix4d::Identity());
   CHECK(still.truth == ear_template().corresponded(individual));
   CHECK(root_mean_square(offsets_of(still)) < 1e-12);
-  CHECK(std::abs(still.places.row(0).minCoeff()) < 0.01);
+  CHECK(std::abs(still.parameters.row(0).minCoeff()) < 0.01);
 
   options = quick_ear_scan();
   double farthest = 0.0;
@@ -335,7 +335,7 @@ TEST_CASE("a scan's noise and pose are those asked for") {
   CHECK(farthest < 23.0);
 }
 
-TEST_CASE("holes are where they were asked for, with disturbed edges") {
+TEST_CASE("holes are at the requested position, with disturbed edges") {
   const synthetic::ear_canal individual = synthetic::ear_canal_family().draw(4);
   synthetic::scan_options options = quick_ear_scan();
   options.vertices = 4000;
@@ -348,7 +348,7 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
   CHECK(lost(holed) > lost(whole) + 150);
   CHECK(lost(holed) < lost(whole) + 600);
   const gonio::shape::surface_index scanned(holed.mesh);
-  const Eigen::Vector3d inside = holed.placed(0.5, 1.0), across = holed.placed(0.5, 1.0 + std::numbers::pi);
+  const Eigen::Vector3d inside = holed.point_at(0.5, 1.0), across = holed.point_at(0.5, 1.0 + std::numbers::pi);
   CHECK(scanned.closest(inside).distance > 2.0);
   CHECK(scanned.closest(across).distance < 0.1);
   // A missing vertex is far from the scan or nearest to its border.
@@ -357,8 +357,8 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
     if (!holed.covered[i]) CHECK((nearest.on_border || nearest.distance < 0.1));
     if (holed.covered[i]) CHECK(nearest.distance < 0.8);
   }
-  for (const auto& place : holed.places.colwise())
-    CHECK(std::hypot((place.x() - 0.5) / 0.05, std::remainder(place.y() - 1.0, 2.0 * std::numbers::pi) / 0.8) > 1.0);
+  for (const auto& point : holed.parameters.colwise())
+    CHECK(std::hypot((point.x() - 0.5) / 0.05, std::remainder(point.y() - 1.0, 2.0 * std::numbers::pi) / 0.8) > 1.0);
 
   options.hole->edge_noise = 0.5;
   const synthetic::ear_scan rough = synthetic::scan_of(individual, ear_template(), 9, options);
@@ -381,7 +381,7 @@ TEST_CASE("parts that touch in a point or are cut off are removed from a scan") 
   sampled.mesh.vertices = gonio::shape::point_columns::Random(3, 10);
   sampled.mesh.triangles.resize(3, 5);
   sampled.mesh.triangles << 0, 2, 5, 7, 8, 1, 3, 6, 6, 6, 2, 4, 7, 8, 9;
-  sampled.places = synthetic::parameter_columns::Random(2, 10);
+  sampled.parameters = synthetic::parameter_columns::Random(2, 10);
   sampled.normals = sampled.mesh.vertices;
   const gonio::shape::point_columns before = sampled.mesh.vertices;
   const std::vector<Eigen::Index> left = sampled.keep_where([](Eigen::Index) { return true; });
@@ -411,8 +411,8 @@ TEST_CASE("defective scans have their defect") {
   const gonio::shape::point_columns normals = gonio::shape::area_normals(mirrored.mesh);
   double outwards = 0.0;
   for (Eigen::Index t = 0; t < normals.cols(); ++t) {
-    const Eigen::Vector2d place = mirrored.places.col(mirrored.mesh.triangles(0, t));
-    const Eigen::Vector3d truth = mirrored.placement.linear() * individual.normal(place.x(), place.y());
+    const Eigen::Vector2d parameters = mirrored.parameters.col(mirrored.mesh.triangles(0, t));
+    const Eigen::Vector3d truth = mirrored.placement.linear() * individual.normal(parameters.x(), parameters.y());
     outwards += normals.col(t).dot(truth) > 0.0 ? 1.0 : 0.0;
   }
   CHECK(outwards / static_cast<double>(normals.cols()) > 0.999);
@@ -424,7 +424,7 @@ TEST_CASE("defective scans have their defect") {
   const synthetic::ear_scan half = with(synthetic::scan_defect::half);
   CHECK(half.mesh.vertices.cols() < 1200);
   CHECK(half.mesh.vertices.cols() > 300);
-  CHECK((half.places.row(0).maxCoeff() < 0.5 || half.places.row(0).minCoeff() >= 0.5));
+  CHECK((half.parameters.row(0).maxCoeff() < 0.5 || half.parameters.row(0).minCoeff() >= 0.5));
 
   const synthetic::ear_scan turned = with(synthetic::scan_defect::upside_down);
   CHECK(turned.placement.linear()(1, 1) < -0.9);
@@ -487,7 +487,7 @@ TEST_CASE("scans of any size and hole are surfaces") {
   }));
 }
 
-TEST_CASE("what cannot be an ear canal or a scan of one is refused") {
+TEST_CASE("impossible ear canals and scans are refused") {
   CHECK_THROWS_WITH_AS((void)synthetic::ear_canal({1.0, 2.0}), "an ear canal was given 2 latent numbers, not 56",
                        gonio::error);
   CHECK_THROWS_AS((void)synthetic::ear_canal(std::vector<double>(56, std::numeric_limits<double>::quiet_NaN())),

@@ -21,7 +21,7 @@ gonio::shape::similarity_transform about_right(const synthetic::ear_scan& scan, 
 
 }  // namespace
 
-TEST_CASE("a model finds the shape and the pose of a whole scan from one that is about right") {
+TEST_CASE("a model finds the shape and the pose of a whole scan from an approximate pose") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(1);
   const gonio::shape::surface_index index(scan.mesh);
@@ -39,7 +39,7 @@ TEST_CASE("a model finds the shape and the pose of a whole scan from one that is
   CHECK(found.all_weights.tail<6>().norm() * 1e3 < 0.05);
 }
 
-TEST_CASE("where a fit ends neither a motion nor other weights of the shape that was found bring it closer") {
+TEST_CASE("at the end of a fit, no motion and no other weights bring the shape closer") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(1);
   gonio::shape::fit_to_scan_options options;
@@ -49,13 +49,13 @@ TEST_CASE("where a fit ends neither a motion nor other weights of the shape that
   REQUIRE(found.iterations < options.most_iterations);
   const gonio::shape::shape_with_motion moving(ears.model.truncated_to_variance(options.explained_variance).basis(),
                                                found.shape());
-  const gonio::basis_equations equations(moving, gonio::shape::locate_vertices(moving.cells(), found.places));
+  const gonio::basis_equations equations(moving, gonio::shape::locate_vertices(moving.cells(), found.correspondences));
   const auto [weights, motion] = moving.split(equations.solve(found.solver).weights.col(0));
   const gonio::shape::point_columns change = motion(gonio::shape::shape_of(moving.shape(), weights)) - found.shape();
   CHECK(std::sqrt(change.squaredNorm() / static_cast<double>(change.cols())) < 1e-3);
 }
 
-TEST_CASE("wherever it begins, a fit to a noisy scan ends at one place") {
+TEST_CASE("a fit to a noisy scan ends at the same shape from different poses") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(3, small_ears::with_hole());
   const gonio::shape::surface_index index(scan.mesh);
@@ -69,12 +69,12 @@ TEST_CASE("wherever it begins, a fit to a noisy scan ends at one place") {
   CHECK(apart.colwise().norm().mean() < 1e-3);
 }
 
-TEST_CASE("what a hole hides is not among the places") {
+TEST_CASE("vertices in a hole are not among the correspondences") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(2, small_ears::with_hole());
   const auto found = gonio::shape::fit_to_scan(ears.model, gonio::shape::surface_index(scan.mesh),
                                                about_right(scan, ears.model, 0.0, 0.0));
-  const auto marks = gonio::shape::marks_of(found.places, ears.model.vertices());
+  const auto marks = gonio::shape::marks_of(found.correspondences, ears.model.vertices());
   std::size_t hidden = 0, shown_though_hidden = 0, shown = 0, uncovered = 0;
   for (std::size_t v = 0; v < marks.size(); ++v) {
     (scan.covered[v] ? shown : hidden) += 1;
@@ -86,13 +86,13 @@ TEST_CASE("what a hole hides is not among the places") {
   CHECK(static_cast<double>(uncovered) < 0.1 * static_cast<double>(shown));
 }
 
-TEST_CASE("spurious places are hardly trusted") {
+TEST_CASE("spurious correspondences get hardly any weight") {
   gonio::shape::point_columns shape = gonio::shape::point_columns::Random(3, 100);
-  gonio::shape::vertex_observations places =
+  gonio::shape::vertex_observations correspondences =
       gonio::shape::vertex_observations::marked(shape, std::vector<bool>(100, true));
-  places.positions.row(0).array() += 0.05;
-  places.positions.col(7).array() += 2.0;
-  const Eigen::VectorXd weights = gonio::shape::detail::inlier_weights(places, shape, 0.05);
+  correspondences.positions.row(0).array() += 0.05;
+  correspondences.positions.col(7).array() += 2.0;
+  const Eigen::VectorXd weights = gonio::shape::detail::inlier_weights(correspondences, shape, 0.05);
   CHECK(weights[7] < 1e-3);
   CHECK(weights[8] == doctest::Approx(0.81));  // (1 + 1/9)^-2
 }
@@ -106,7 +106,7 @@ TEST_CASE("a pose that is wrong is refused") {
                        gonio::error);
 }
 
-TEST_CASE("a pose that is held stays as it was given, bit by bit, and costs what it is off") {
+TEST_CASE("a held pose stays the same to the last bit, and its error remains in the result") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(1);
   const gonio::shape::surface_index index(scan.mesh), complete(scan.complete);

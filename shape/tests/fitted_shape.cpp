@@ -57,7 +57,7 @@ TEST_CASE("a fit to known vertices is the conditional expectation of Eq. 7") {
   }));
 }
 
-TEST_CASE("a shape of the family is completed, one outside of it only as far as it is of the family") {
+TEST_CASE("a shape of the family is completed, but not with few components") {
   const auto all = synthetic_shapes(30, 60, 4, 7);
   const gonio::shape::shape_basis basis = synthetic_basis({all.begin(), all.end() - 1});
   std::vector<bool> marks(30, true);
@@ -80,7 +80,7 @@ TEST_CASE("all vertices known is a projection on the family") {
   CHECK((fit.vertices() - all[4]).cwiseAbs().maxCoeff() < 1e-4);
 }
 
-TEST_CASE("along a surface a place hardly counts, and one that is not trusted not at all") {
+TEST_CASE("with normals, an error along the surface counts little; a vertex of weight 0 does not count") {
   const auto all = synthetic_shapes(30, 60, 4, 11);
   const gonio::shape::shape_basis basis = synthetic_basis({all.begin(), all.end() - 1});
   const auto fit = [&](const gonio::shape::vertex_observations& known) {

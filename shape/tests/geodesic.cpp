@@ -86,7 +86,7 @@ TEST_CASE("distances are the shortest of all paths along edges, and the same bot
   }));
 }
 
-TEST_CASE("what no path leads to is infinitely far, and is no neighbour") {
+TEST_CASE("vertices without a path are infinitely far, and are no neighbours") {
   gonio::shape::triangle_mesh mesh =
       mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0.1}}, {{0, 1, 2}, {3, 4, 5}});
   const mesh_topology topology(mesh);
@@ -121,7 +121,7 @@ TEST_CASE("the nearest candidates are the first of all by distance and number") 
   }));
 }
 
-TEST_CASE("vertices at one place are taken by number") {
+TEST_CASE("coincident vertices are taken by number") {
   // Vertex 3 is at the position of 0, so the edge between them has length 0.
   const gonio::shape::triangle_mesh mesh =
       mesh_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}}, {{2, 3, 1}, {1, 3, 0}});

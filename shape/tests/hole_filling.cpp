@@ -78,7 +78,7 @@ TEST_CASE("a strip whose edges across join border to border is continued along i
   CHECK(largest_change(filled(mesh, known), mesh.vertices) < 1e-11);
 }
 
-TEST_CASE("a thin plate goes on with the curvature of a cylinder, a membrane cuts it short") {
+TEST_CASE("a thin plate continues the curvature of a cylinder, a membrane flattens it") {
   const gonio::shape::triangle_mesh mesh = tube_mesh(30, 40, 5.0);
   const Eigen::Vector3d side(5.0, 0.0, mesh.vertices.row(2).mean());
   const auto known = known_but(mesh.vertices, [&](const auto& point) { return (point - side).norm() < 3.0; });
@@ -142,7 +142,7 @@ TEST_CASE("where all is known nothing changes") {
   CHECK(filled(mesh, std::vector<bool>(4, true)) == mesh.vertices);
 }
 
-TEST_CASE("what cannot be filled in is refused") {
+TEST_CASE("holes that cannot be filled are refused") {
   const gonio::shape::triangle_mesh mesh = tetrahedron();
   const mesh_topology topology(mesh);
   const std::vector<bool> known{true, false, true, true};

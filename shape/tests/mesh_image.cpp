@@ -28,7 +28,7 @@ bool shows(const gonio::image& image, std::size_t row, std::size_t column, const
 
 }  // namespace
 
-TEST_CASE("what is near hides what is behind, from either side") {
+TEST_CASE("near triangles hide farther ones, from either side") {
   const two_squares scene;
   gonio::shape::mesh_view view;
   view.radius = 4.0;
@@ -68,7 +68,7 @@ TEST_CASE("a view of a mesh holds it all") {
   CHECK((scene.mesh.vertices.colwise() - view.centre).colwise().norm().maxCoeff() < view.radius);
 }
 
-TEST_CASE("images that cannot be are refused") {
+TEST_CASE("impossible images are refused") {
   const two_squares scene;
   CHECK_THROWS_WITH_AS(gonio::shape::image_of(scene.mesh, std::span(scene.colours).first(3), {}),
                        "an image of 8 vertices has 3 colours", gonio::error);

@@ -21,7 +21,7 @@ TEST_CASE("a part has the marked triangles, each vertex once") {
   for (Eigen::Index t = 0; t < areas.cols(); ++t) CHECK(areas(2, t) == doctest::Approx(1.0));
 }
 
-TEST_CASE("what would touch in one vertex only is parted there") {
+TEST_CASE("pieces that would touch in a single vertex are separated there") {
   const gonio::shape::triangle_mesh mesh = flat_grid(3, 3);
   // Vertices 2 and 6 are the corners off the diagonal. Without 1, 3, 5 and 7 only the middle would remain.
   std::vector<bool> marked(9, true);
@@ -55,7 +55,7 @@ TEST_CASE("any part of a surface is a surface, with the triangles of the whole")
   }));
 }
 
-TEST_CASE("a part of another number of marks is refused") {
+TEST_CASE("a wrong number of marks is refused") {
   CHECK_THROWS_WITH_AS((void)gonio::shape::part_of(tetrahedron(), {true}), "1 marks for the 4 vertices of a mesh",
                        gonio::error);
 }

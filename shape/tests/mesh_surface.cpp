@@ -72,7 +72,7 @@ TEST_CASE("a fine mesh of a sphere is seen as the sphere is, through a lens that
   CHECK(one < both / 40);  // at the outline
 }
 
-TEST_CASE("the nearest triangle is seen, and hides what is behind it") {
+TEST_CASE("the nearest triangle is seen, and hides the surfaces behind it") {
   const gonio::lens_camera camera = distorting_camera();
   triangle_mesh two = square_at(0.0);
   const triangle_mesh nearer = square_at(1.0);

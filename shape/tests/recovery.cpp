@@ -21,7 +21,7 @@ struct recovered_hole {
         complete(scan.complete),
         pose(gonio::shape::align(scan.truth, ears.model.mean().vertices)) {
     for (std::size_t v = 0; v < scan.covered.size(); ++v)
-      if (!scan.covered[v] && ears.common.places()(0, v) > 0.1) hole.push_back(v);
+      if (!scan.covered[v] && ears.common.parameters()(0, v) > 0.1) hole.push_back(v);
   }
 
   [[nodiscard]] double off(const gonio::shape::point_columns& vertices,
@@ -58,7 +58,7 @@ TEST_CASE("a large hole is recovered closer to the truth than a thin plate fills
   CHECK(ours < 0.6 * thin_plate);
 }
 
-TEST_CASE("Algorithm 1 aligns in each round: from a pose that is off it comes nearer to the truth than without") {
+TEST_CASE("Algorithm 1 gets closer to the truth from a wrong pose if it aligns in each round") {
   const small_ears& ears = small_ears::of_sixty();
   const recovered_hole judge(ears, 1);
   const gonio::shape::similarity_transform off{1.0, Eigen::Matrix3d::Identity(), {0.7, -0.7, 0.0}};

@@ -16,7 +16,7 @@ TEST_CASE("a registered scan is a shape of the model's vertices on the scan") {
   CHECK((found.vertices - found.pose(scan.truth)).colwise().norm().mean() < 1.5);
 }
 
-TEST_CASE("a scan may be aligned anew while the model is propagated: it stays where it belongs, and the shape on it") {
+TEST_CASE("a scan may be realigned in each round: its pose stays right, and the shape stays on it") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(7);
   const gonio::shape::surface_index index(scan.mesh);
@@ -37,7 +37,7 @@ TEST_CASE("a scan may be aligned anew while the model is propagated: it stays wh
   CHECK((anew(scan.truth) - right(scan.truth)).colwise().norm().mean() < 0.3);
 }
 
-TEST_CASE("each test of a registration refuses by a sentence") {
+TEST_CASE("each failed test of a registration gives its sentence") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(7, small_ears::with_hole());
   const gonio::shape::surface_index index(scan.mesh);
@@ -69,7 +69,7 @@ TEST_CASE("the smallest angles of triangles") {
   CHECK(gonio::shape::smallest_angle_percentile(mesh, 0.0) < 30.0);
 }
 
-TEST_CASE("averaging over neighbours keeps a border in its place") {
+TEST_CASE("averaging over neighbours hardly moves a border") {
   const small_ears ears(12);
   const gonio::shape::triangle_mesh mean = ears.model.mean();
   const gonio::shape::point_columns smooth =

@@ -60,7 +60,7 @@ TEST_CASE("a frame is right-handed, with the normal third and the vertical in th
   CHECK_FALSE(gonio::shape::context_frame(Eigen::Vector3d::Zero(), {}).has_value());
 }
 
-TEST_CASE("the bins of places around a point") {
+TEST_CASE("the bins of points around a point") {
   const shape_context_options options;  // 8 x 13 x 4 within 10
   const auto bin = [&](double r, double theta, double phi) {
     const double across = r * std::sin(gonio::radians(theta));
@@ -81,7 +81,7 @@ TEST_CASE("the bins of places around a point") {
   CHECK(gonio::shape::context_bin({0.0, 0.0, -10.0}, options) == 7 * 52 + 12 * 4 + 2);
 }
 
-TEST_CASE("a descriptor is the area around a point by hand") {
+TEST_CASE("a descriptor agrees with areas computed by hand") {
   // Equilateral triangles with side 1 in the plane z = 0. The neighbours within 1.2 of an inner vertex are its six
   // neighbours, which also have six triangles each.
   const triangle_mesh grid = flat_grid(7, 9, 1.0, std::sqrt(0.75), -0.5);
@@ -122,7 +122,7 @@ TEST_CASE("a descriptor is left unchanged by turns about the vertical, translati
   CHECK(chi_square_between(tilted.histograms.col(0), expected.histograms.col(5)) > 0.1);
 }
 
-TEST_CASE("a descriptor tells about the surface, not about its triangles") {
+TEST_CASE("a descriptor depends on the surface, not on its triangulation") {
   // One part of a plane has twice the vertex density of the other along x.
   const auto plane_of = [](int columns, bool uneven) {
     triangle_mesh plane = flat_grid(41, columns, 40.0 / (columns - 1), 1.0);
@@ -138,7 +138,7 @@ TEST_CASE("a descriptor tells about the surface, not about its triangles") {
   CHECK(chi_square_between(first.histograms.col(0), second.histograms.col(0)) < 0.01);
 }
 
-TEST_CASE("points without a frame or without surroundings are left out, others keep their order") {
+TEST_CASE("points without a frame or without surroundings are skipped, others keep their order") {
   const triangle_mesh sphere = sphere_mesh(3, 5.0);
   std::vector<Eigen::Index> all(sphere.vertices.cols());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
@@ -161,7 +161,7 @@ TEST_CASE("points without a frame or without surroundings are left out, others k
   CHECK(describe(strayed, {sphere.vertices.cols()}).vertex.empty());
 }
 
-TEST_CASE("spread vertices are each the farthest from those before") {
+TEST_CASE("each spread vertex is the farthest from the vertices before it") {
   const triangle_mesh canal = canal_mesh(20, 17);
   const auto chosen = spread_vertices(canal, 60);
   REQUIRE(chosen.size() == 60);
@@ -171,17 +171,17 @@ TEST_CASE("spread vertices are each the farthest from those before") {
   Eigen::Index first = 0;
   (canal.vertices.colwise() - centroid).colwise().norm().maxCoeff(&first);
   CHECK(chosen[0] == first);
-  const gonio::shape::point_columns places = canal.vertices(Eigen::all, chosen);
+  const gonio::shape::point_columns positions = canal.vertices(Eigen::all, chosen);
   for (Eigen::Index i = 1; i < 60; ++i) {
-    const auto nearest = [&](const Eigen::Vector3d& place) {
-      return (places.leftCols(i).colwise() - place).colwise().norm().minCoeff();
+    const auto nearest = [&](const Eigen::Vector3d& point) {
+      return (positions.leftCols(i).colwise() - point).colwise().norm().minCoeff();
     };
-    const double own = nearest(places.col(i));
+    const double own = nearest(positions.col(i));
     for (Eigen::Index v = 0; v < canal.vertices.cols(); ++v) REQUIRE(nearest(canal.vertices.col(v)) <= own + 1e-12);
   }
 }
 
-TEST_CASE("spread vertices are of triangles, and no more than there are places") {
+TEST_CASE("spread vertices belong to triangles and have different positions") {
   triangle_mesh mesh = tetrahedron();
   mesh.vertices.conservativeResize(3, 6);
   mesh.vertices.rightCols<2>() << 100.0, 0.0, 0.0, 0.0, 0.0, 0.0;  // two unused vertices
@@ -234,7 +234,7 @@ TEST_CASE("a surface is matched to itself, whichever has more points") {
   CHECK(matches.front().cost > 0.0);
 }
 
-TEST_CASE("what cannot be described is refused") {
+TEST_CASE("meshes and options that cannot be used are refused") {
   const triangle_mesh canal = canal_mesh(10, 9);
   const auto refused = [&](const std::function<void(shape_context_options&)>& change, const char* why) {
     shape_context_options options;

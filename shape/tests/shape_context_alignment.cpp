@@ -35,11 +35,11 @@ double turn_between(const similarity_transform& a, const similarity_transform& b
 }
 
 /// Returns a mesh without the triangles near a point.
-triangle_mesh with_hole(const triangle_mesh& mesh, const Eigen::Vector3d& place, double radius) {
+triangle_mesh with_hole(const triangle_mesh& mesh, const Eigen::Vector3d& centre, double radius) {
   triangle_mesh left{mesh.vertices, gonio::shape::triangle_columns(3, mesh.triangles.cols())};
   Eigen::Index kept = 0;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    if ((mesh.corners(t).rowwise().mean() - place).norm() > radius) left.triangles.col(kept++) = mesh.triangles.col(t);
+    if ((mesh.corners(t).rowwise().mean() - centre).norm() > radius) left.triangles.col(kept++) = mesh.triangles.col(t);
   left.triangles.conservativeResize(3, kept);
   return left;
 }
@@ -180,7 +180,7 @@ TEST_CASE("the same bytes for any number of threads") {
   CHECK(one.matches == three.matches);
 }
 
-TEST_CASE("what cannot be aligned by shape contexts is refused") {
+TEST_CASE("meshes and options that cannot be used for an alignment are refused") {
   const triangle_mesh model = canal_mesh(10, 9);
   const auto refused = [&](const std::function<void(shape_context_alignment_options&)>& change, const char* why) {
     shape_context_alignment_options options;

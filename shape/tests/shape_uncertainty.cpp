@@ -45,7 +45,7 @@ TEST_CASE("V{s1|s2} equals the block formula where S22 has an inverse") {
   CHECK(uncertainty.as_published(0).norm() < 1e-9);  // a known vertex is known
 }
 
-TEST_CASE("by Tikhonov it is the posterior of the weights") {
+TEST_CASE("with Tikhonov, the uncertainty is the posterior of the weights") {
   const auto shapes = synthetic_shapes(8, 20, 5, 2);
   const gonio::shape::shape_basis basis = synthetic_basis(shapes);
   const auto known =

@@ -49,7 +49,7 @@ TEST_CASE("a shape with motion: the last six functions turn and shift the shape"
                        "a shape of 3 vertices does not match a basis of 8", gonio::error);
 }
 
-TEST_CASE("a shape with motion: weights are split into the shape's and the motion that they stand for") {
+TEST_CASE("a shape with motion: weights are split into the shape's weights and the motion") {
   const moving_shape made;
   const double freedom = 100.0;
   const shape_with_motion functions(made.basis, made.shape, freedom);

@@ -17,7 +17,7 @@ TEST_CASE("means of signed distances") {
   CHECK(told.largest == 3.0);
 }
 
-TEST_CASE("a sphere that has grown is outside by what it has grown, a shrunk one inside") {
+TEST_CASE("a grown sphere is outside by its growth, a shrunk one inside") {
   const gonio::shape::surface_index surface(sphere_mesh(3, 10.0));
   const gonio::shape::point_columns vertices = surface.mesh().vertices;
   for (const double change : {0.5, -0.5}) {
@@ -46,7 +46,7 @@ TEST_CASE("some of the points only") {
   CHECK(told.largest == doctest::Approx(0.5));
 }
 
-TEST_CASE("signed distances are the same by any number of threads") {
+TEST_CASE("signed distances are the same for any number of threads") {
   std::mt19937_64 generator(7);
   const gonio::shape::surface_index surface(sphere_mesh(2));
   gonio::shape::point_columns points(3, 700);
@@ -56,7 +56,7 @@ TEST_CASE("signed distances are the same by any number of threads") {
   for (Eigen::Index i = 0; i < 700; ++i) CHECK(one[i] == surface.signed_distance(points.col(i)));
 }
 
-TEST_CASE("the distance of no points or of such that are not finite is refused") {
+TEST_CASE("distances of no points, or of points that are not finite, are refused") {
   const gonio::shape::surface_index surface(tetrahedron());
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::shape::distance_to(surface, gonio::shape::point_columns(3, 0))),
                        "the mean distance to a surface needs at least one point", gonio::error);

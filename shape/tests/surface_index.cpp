@@ -50,11 +50,11 @@ std::optional<double> least_along(const gonio::shape::triangle_mesh& mesh, const
     const Eigen::Vector3d first = corners.col(1) - corners.col(0), second = corners.col(2) - corners.col(0),
                           normal = first.cross(second);
     const double along = normal.dot(corners.col(0) - origin) / normal.dot(unit);
-    const Eigen::Vector3d place = origin + along * unit;
+    const Eigen::Vector3d point = origin + along * unit;
     bool inside = std::isfinite(along);
     for (Eigen::Index side = 0; side < 3; ++side) {
       const Eigen::Vector3d edge = corners.col((side + 1) % 3) - corners.col(side);
-      inside = inside && edge.cross(place - corners.col(side)).dot(normal) >= 0.0;
+      inside = inside && edge.cross(point - corners.col(side)).dot(normal) >= 0.0;
     }
     if (inside && (!least || std::abs(along) < *least)) least = std::abs(along);
   }
@@ -66,9 +66,9 @@ gonio::shape::triangle_mesh triangle_soup(std::mt19937_64& generator, int triang
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> corners;
   for (int t = 0; t < triangles; ++t) {
-    const Eigen::Vector3d place = synthetic_point(generator, 2.0);
+    const Eigen::Vector3d centre = synthetic_point(generator, 2.0);
     const double size = std::pow(10.0, -3.0 * synthetic_number(generator));
-    for (int corner = 0; corner < 3; ++corner) vertices.emplace_back(place + synthetic_point(generator, size));
+    for (int corner = 0; corner < 3; ++corner) vertices.emplace_back(centre + synthetic_point(generator, size));
     corners.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
   }
   return mesh_of(vertices, corners);
@@ -91,7 +91,7 @@ void check_consistent(const gonio::shape::triangle_mesh& mesh, const surface_poi
 
 }  // namespace
 
-TEST_CASE("the closest point is that of all triangles") {
+TEST_CASE("the closest point agrees with a search of all triangles") {
   std::mt19937_64 generator(1);
   for (const gonio::shape::triangle_mesh& mesh : various_surfaces(generator)) {
     const surface_index surface(mesh);
@@ -131,7 +131,7 @@ TEST_CASE("a surface that is moved and grown has its closest points moved and gr
   }));
 }
 
-TEST_CASE("of triangles at the same distance, the one of the lowest number is told") {
+TEST_CASE("of equally near triangles, the one with the lowest number is returned") {
   const gonio::shape::triangle_mesh mesh = sphere_mesh(2);
   const surface_index surface(mesh);
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
@@ -156,7 +156,7 @@ TEST_CASE("triangles without area are searched as well") {
   CHECK_FALSE(surface.along({2.5, 0, 1}, {0, 0, 1}, 5.0));
 }
 
-TEST_CASE("a line's nearest intersection is that of all triangles") {
+TEST_CASE("a line's nearest intersection agrees with a search of all triangles") {
   std::mt19937_64 generator(2);
   int met = 0;
   for (const gonio::shape::triangle_mesh& mesh : various_surfaces(generator)) {
@@ -183,7 +183,7 @@ TEST_CASE("a line's nearest intersection is that of all triangles") {
   CHECK(met > 500);
 }
 
-TEST_CASE("lines along the axes meet what lies in planes across them, at both ends") {
+TEST_CASE("lines along an axis meet triangles perpendicular to it, in both directions") {
   const surface_index surface(flat_grid(4, 4));
   const Eigen::Vector3d origin(1.3, 1.4, 2.0);
   for (const double sign : {1.0, -1.0}) {
@@ -204,11 +204,11 @@ TEST_CASE("no line slips between triangles") {
   for (const auto& corners : mesh.triangles.colwise())
     for (Eigen::Index side = 0; side < 3; ++side)
       for (const double share : {0.0, 0.1, 1.0 / 3.0, 0.5}) {
-        const Eigen::Vector3d place =
+        const Eigen::Vector3d point =
             (1.0 - share) * mesh.vertices.col(corners[side]) + share * mesh.vertices.col(corners[(side + 1) % 3]);
-        const auto found = surface.along(0.1 * place, place, 10.0);
+        const auto found = surface.along(0.1 * point, point, 10.0);
         REQUIRE(found);
-        CHECK((found->position - place).norm() < 1e-8);
+        CHECK((found->position - point).norm() < 1e-8);
         CHECK_FALSE(found->on_border);
       }
 }
@@ -264,7 +264,7 @@ TEST_CASE("distances are positive outside of a closed surface and negative insid
   }
 }
 
-TEST_CASE("the sign at a vertex is right where the mean normal by area has it wrong") {
+TEST_CASE("the sign at a vertex is right where the area-weighted normal gives a wrong one") {
   // A spike with one triangle much larger than the other two.
   const std::vector<Eigen::Vector3d> vertices{{0, 0, 0}, {100, 0, -200}, {-50, 86.6, -200}, {-0.5, -0.866, -2}};
   const gonio::shape::triangle_mesh spike = mesh_of(vertices, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
@@ -274,8 +274,8 @@ TEST_CASE("the sign at a vertex is right where the mean normal by area has it wr
   int outside = 0, wrong_by_mean = 0;
   for (int i = 0; i < 5000; ++i) {
     const Eigen::Vector3d point = synthetic_point(generator, 1.0);
-    const surface_point place = surface.closest(point);
-    if (place.distance == 0.0 || place.position != spike.vertices.col(0)) continue;
+    const surface_point found = surface.closest(point);
+    if (found.distance == 0.0 || found.position != spike.vertices.col(0)) continue;
     ++outside;  // the vertex is convex, so points closest to it are outside
     CHECK(surface.signed_distance(point) > 0.0);
     if (means.col(0).dot(point) < 0.0) ++wrong_by_mean;
@@ -284,7 +284,7 @@ TEST_CASE("the sign at a vertex is right where the mean normal by area has it wr
   CHECK(wrong_by_mean > 100);
 }
 
-TEST_CASE("pseudonormals are of the triangle, of the edge's two and of the vertex's by angle") {
+TEST_CASE("pseudonormals: the triangle's normal, the mean of an edge's two, the angle-weighted mean at a vertex") {
   const surface_index surface(tetrahedron());
   const auto normal_near = [&](const Eigen::Vector3d& point) { return surface.pseudonormal(surface.closest(point)); };
   CHECK((normal_near({1, 1, 1}) - Eigen::Vector3d(1, 1, 1).normalized()).norm() < 1e-15);
@@ -296,7 +296,7 @@ TEST_CASE("pseudonormals are of the triangle, of the edge's two and of the verte
   CHECK((normal_near({5, 0, 0}) - at_tip.normalized()).norm() < 1e-14);
 }
 
-TEST_CASE("many points are answered as one by one, by any number of threads") {
+TEST_CASE("a query of many points gives the results of single queries, with any number of threads") {
   std::mt19937_64 generator(6);
   const surface_index surface(sphere_mesh(2));
   gonio::shape::point_columns points(3, 1000);

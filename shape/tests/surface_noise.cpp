@@ -22,14 +22,14 @@ double root_mean_noise(const gonio::shape::triangle_mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("the noise of a curved surface is told without its curvature") {
+TEST_CASE("the noise of a curved surface is found without its curvature") {
   const gonio::shape::triangle_mesh smooth = sphere_mesh(4, 5.0);
   CHECK(root_mean_noise(smooth) < 0.002);
   for (const double deviation : {0.02, 0.05, 0.1})
     CHECK(root_mean_noise(with_noise(smooth, deviation, 1)) == doctest::Approx(deviation).epsilon(0.1));
 }
 
-TEST_CASE("noise is told where it is") {
+TEST_CASE("noise is found where it is") {
   gonio::shape::triangle_mesh mesh = flat_grid(30, 40);
   const gonio::shape::triangle_mesh noisy = with_noise(mesh, 0.1, 2);
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v)

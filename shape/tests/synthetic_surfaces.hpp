@@ -69,10 +69,10 @@ inline gonio::shape::triangle_mesh sphere_mesh(int times, double radius = 1.0) {
   for (; times > 0; --times) {
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
-      const auto [place, made] = middles.try_emplace(std::minmax(a, b), static_cast<int>(vertices.size()));
+      const auto [entry, made] = middles.try_emplace(std::minmax(a, b), static_cast<int>(vertices.size()));
       if (made) vertices.push_back(vertices[a] + vertices[b]);
       if (made) vertices.back() *= 0.5;
-      return place->second;
+      return entry->second;
     };
     std::vector<Eigen::Vector3i> finer;
     for (const Eigen::Vector3i& t : triangles) {

@@ -54,7 +54,7 @@ TEST_CASE("materials added to a prior that keeps all make the prior of all toget
   }
 }
 
-TEST_CASE("what a prior did not keep is counted in the variance that it does not explain") {
+TEST_CASE("variance that a prior did not keep counts as unexplained") {
   const auto old_set = materials(0, 20);
   const auto metric = gonio::log_relative::to_median_of(old_set);
   const auto old = gonio::learn_pca(old_set, metric, 6);

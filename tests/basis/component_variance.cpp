@@ -24,7 +24,7 @@ TEST_CASE("the weights of learned components have the variance 1 / (3 materials)
   }
 }
 
-TEST_CASE("shares of the variance fall, and add up to what is explained, of a truncated basis, too") {
+TEST_CASE("shares of the variance fall, and add up to the explained variance, also for a truncated basis") {
   const auto prior = learn(synthetic_materials(small_cells(), 9), 7);
   for (const auto& basis : {prior, prior.truncated(3)}) {
     const Eigen::VectorXd shares = gonio::variance_shares(basis);

@@ -38,24 +38,24 @@ double product_of(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// The covariance as basis/discrepancy.hpp documents it.
 double covariance(const half_difference& a, const half_difference& b) {
-  const auto place = [](const half_difference& at) {
+  const auto coordinates = [](const half_difference& at) {
     const double degrees = 180.0 / std::numbers::pi;
     return Eigen::Vector4d(std::sqrt(at.theta_h * degrees / 90.0) / 0.1, at.theta_d * degrees / 90.0 / 0.2,
                            std::sin(at.theta_d) * std::cos(2.0 * at.phi_d) / 2.0 / 0.4,
                            std::sin(at.theta_d) * std::sin(2.0 * at.phi_d) / 2.0 / 0.4);
   };
-  return std::exp(-0.5 * (place(a) - place(b)).squaredNorm());
+  return std::exp(-0.5 * (coordinates(a) - coordinates(b)).squaredNorm());
 }
 
 }  // namespace
 
 TEST_CASE("many rows at once are those read one by one") {
   const discrepancy_functions functions(some_centres(150), 0.7);
-  const auto places = some_centres(9, 21);
+  const auto locations = some_centres(9, 21);
   gonio::row_matrix all(9, 150);
-  functions.read(places, all);
+  functions.read(locations, all);
   for (Eigen::Index i = 0; i < 9; ++i) {
-    const std::vector<double> row = row_of(functions, places[i]);
+    const std::vector<double> row = row_of(functions, locations[i]);
     const Eigen::Map<const Eigen::RowVectorXd> one(row.data(), 150);
     CHECK((all.row(i) - one).cwiseAbs().maxCoeff() < 1e-9 * one.cwiseAbs().maxCoeff());
   }
@@ -123,7 +123,7 @@ TEST_CASE("covariances span the same functions as those of unit variance") {
   CHECK((covariances.covariance_weights(weights) - weights).norm() == 0.0);
 }
 
-TEST_CASE("covariances of one place, of pairs and of all are the same numbers") {
+TEST_CASE("covariances of one location, of pairs and of all are the same numbers") {
   const auto some = some_centres(7), others = some_centres(5, 21);
   const Eigen::MatrixXd between = gonio::discrepancy_covariance(some, others, {});
   REQUIRE(between.rows() == 7);

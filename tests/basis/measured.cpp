@@ -61,7 +61,7 @@ TEST_CASE("materials are left out without copying: the rows stay where they are"
                        gonio::error);
 }
 
-TEST_CASE("a basis from what a prior remembers is that from the materials") {
+TEST_CASE("a basis of a prior's expanded materials equals that of the materials") {
   const auto materials = synthetic_materials(small_cells(), 6);
   const auto remembered = gonio::expand(learn(materials, 18));
   CHECK(remembered.names == materials.names);

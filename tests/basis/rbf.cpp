@@ -108,7 +108,7 @@ TEST_CASE("a row is the kernel of the distance to each centre, 1 and the coordin
   CHECK(functions.metric().map(2.0) == 2.0);
 }
 
-TEST_CASE("kernels are what they say of the distance") {
+TEST_CASE("kernels are their documented functions of the distance") {
   Eigen::Array<double, 1, Eigen::Dynamic> squares(4), linear, cubic, gaussian, thin;
   squares << 0.0, 0.25, 1.0, 4.0;
   linear = cubic = gaussian = thin = squares;
@@ -150,8 +150,8 @@ TEST_CASE("affine functions of the coordinates come back exactly, wherever they 
     for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
       table.set(cell, gonio::rgb::Constant(truth(small_cells().angles(cell))));
     const auto fit = estimator.fit(table);
-    for (const auto& place : {in_degrees(0.5, 3, 12), in_degrees(33, 41, 179), in_degrees(60, 22, 90)})
-      RC_ASSERT(std::abs(value_at(fit, place).y() - truth(place)) < 1e-6);
+    for (const auto& angles : {in_degrees(0.5, 3, 12), in_degrees(33, 41, 179), in_degrees(60, 22, 90)})
+      RC_ASSERT(std::abs(value_at(fit, angles).y() - truth(angles)) < 1e-6);
   }));
 }
 
@@ -184,12 +184,12 @@ TEST_CASE("each farthest-point centre is farther from those before it than any c
 }
 
 TEST_CASE("centres come from the seed, and 758 by default") {
-  const auto first_place = [](std::uint64_t seed) {
+  const auto first_centre = [](std::uint64_t seed) {
     return gonio::radial_coordinates(gonio::farthest_point_centres(small_cells(), 1, seed).front());
   };
-  CHECK(first_place(4) == first_place(4));
-  const std::array others{first_place(1), first_place(2), first_place(3)};
-  CHECK(std::ranges::any_of(others, [&](const Eigen::Vector3d& place) { return place != first_place(4); }));
+  CHECK(first_centre(4) == first_centre(4));
+  const std::array others{first_centre(1), first_centre(2), first_centre(3)};
+  CHECK(std::ranges::any_of(others, [&](const Eigen::Vector3d& other) { return other != first_centre(4); }));
   const gonio::valid_cells enough(gonio::grid({20, 15, 20}));
   CHECK(rbf{enough, gonio::log{}}.size() == 762);
   CHECK(rbf<gonio::log>{enough}.cells() == enough);

@@ -16,7 +16,7 @@ gonio::soft_specular_prior two_of(const gonio::material_set& set) {
 
 }  // namespace
 
-TEST_CASE("two priors in one: what both have in common") {
+TEST_CASE("two priors in one: their common members") {
   const auto prior = two_of(synthetic_materials(small_cells(), 5));
   CHECK(prior.materials() == 5);
   CHECK(prior.soft().names() == std::vector<std::string>{"material-0", "material-1"});

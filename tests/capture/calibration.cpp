@@ -52,7 +52,7 @@ TEST_CASE("calibration: the ratio to the lamp is the BRDF, too") {
   REQUIRE(found.is_usable());
   const double expected = 0.5 * 0.01 / 0.002 / somewhere.wi.z();
   CHECK(((found.value - expected).abs() < 2e-3 * expected).all());
-  // The mean of two readings has the variance of half of one.
+  // The mean of two readings has half the variance of one.
   const double one = gonio::capture::mean_exposures(std::span(looks).first(1), known)[1].relative_deviation();
   CHECK(exposures[1].relative_deviation() == doctest::Approx(one / std::sqrt(2.0)));
   using doctest::Contains;
@@ -62,7 +62,7 @@ TEST_CASE("calibration: the ratio to the lamp is the BRDF, too") {
   CHECK_THROWS_WITH_AS(gonio::capture::mean_exposures(dark, known), Contains("reading 1 is dark"), gonio::error);
 }
 
-TEST_CASE("calibration: surfaces at other places are corrected for") {
+TEST_CASE("calibration: surfaces at other positions are corrected for") {
   // The cosine is half as large and the distance twice as long: an eighth of the light.
   const auto found =
       measure_reflectance(photographed({2'000, 2'000, 2'000}), photographed({16'000, 16'000, 16'000}), somewhere, known,
@@ -71,7 +71,7 @@ TEST_CASE("calibration: surfaces at other places are corrected for") {
   CHECK(found.value.x() == doctest::Approx(0.99 / std::numbers::pi).epsilon(2e-3));
 }
 
-TEST_CASE("calibration: a reference that was measured under other lights serves by the nearest, and both cosines") {
+TEST_CASE("calibration: a reference measured under other lights is used with the nearest light and both cosines") {
   const auto pose = [](double light, double viewer) {
     return gonio::direction_pair{gonio::spherical_direction(light, 0.0), gonio::spherical_direction(viewer, 1.0)};
   };
@@ -95,7 +95,7 @@ TEST_CASE("calibration: a reference that was measured under other lights serves 
                        "a reference has 1 readings at 2 poses, expected one at each", gonio::error);
 }
 
-TEST_CASE("calibration: a reference that is darker at grazing light is known by its table, also at another pose") {
+TEST_CASE("calibration: a table corrects a reference that is darker at grazing light, also at another pose") {
   const auto pose = [](double light) {
     return gonio::direction_pair{gonio::spherical_direction(light, 0.0), gonio::spherical_direction(0.2, 1.0)};
   };
@@ -121,7 +121,7 @@ TEST_CASE("calibration: a reference that is darker at grazing light is known by 
                        gonio::error);
 }
 
-TEST_CASE("calibration: what means nothing says why") {
+TEST_CASE("calibration: unusable values give the reason") {
   const reading white = photographed({20'000, 20'000, 20'000}), black = photographed({0, 0, 0}),
                 bright = photographed({1e6, 1e6, 1e6});
   CHECK(measure_reflectance(bright, white, somewhere, known).doubt == "saturated in every exposure");
@@ -138,8 +138,7 @@ TEST_CASE("calibration: what means nothing says why") {
   CHECK(yellow.as_sample().weight[0] > 0.3);
 }
 
-TEST_CASE(
-    "calibration: a channel counts by its own deviation: the near-black one of a paint less than the bright ones") {
+TEST_CASE("calibration: each channel has the weight of its own deviation, a paint's near-black channel the smallest") {
   const auto measured = [](const gonio::rgb& value, const gonio::rgb& deviation) {
     return gonio::capture::measured_reflectance{somewhere, value, deviation}.as_sample().weight;
   };
@@ -174,7 +173,7 @@ TEST_CASE("calibration: the responses of the three colours come from the times t
                        Contains("common exposure times, not 1"), gonio::error);
 }
 
-TEST_CASE("calibration: frames that saturate in a pixel take no part, nor do those of which the response is a guess") {
+TEST_CASE("calibration: frames with a saturated pixel or at extrapolated counts are ignored") {
   reading uneven = photographed({10'000, 10'000, 10'000});
   uneven.frames[4](2, 0) = 4095;            // in the frame of 0.2 s: leaving it out would change the mean
   uneven.frames[0].col(1) = 0;              // in the frame of 12.5 ms: wrong, but too dark to be noticed
@@ -185,7 +184,7 @@ TEST_CASE("calibration: frames that saturate in a pixel take no part, nor do tho
   CHECK(((found.value * std::numbers::pi / 0.99 - 0.5).abs() < 2e-3).all());
 }
 
-TEST_CASE("calibration: a reference darker than most of what is measured beside it is refused") {
+TEST_CASE("calibration: a reference darker than most samples is refused") {
   const gonio::direction up(0.0, 0.0, 1.0), aslant = gonio::spherical_direction(gonio::radians(50.0), 0.0);
   // Values relative to white, half of them in highlights.
   const auto measured = [&](std::initializer_list<double> highlights, std::initializer_list<double> others) {

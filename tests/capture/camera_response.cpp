@@ -38,8 +38,8 @@ exposure_counts expose(const curve& response, std::uint16_t largest, double nois
   return counts;
 }
 
-/// Returns the largest relative error of the exposure, relative to that of the middle count, over counts between `from`
-/// and 0.98 of the largest.
+/// Returns the largest relative error of the exposure over counts from `from` to 0.98 of the largest. Exposures are
+/// relative to the middle count's.
 double worst_error(const camera_response& found, const curve& response, double from) {
   const auto exposure_of = [&](double share) {  // by bisection
     double low = 0.0, high = 1.0;

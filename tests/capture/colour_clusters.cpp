@@ -141,7 +141,7 @@ TEST_CASE("a colour too rare for the sample is found if it is asked for") {
   CHECK(found.labels[31234] == 1);
 }
 
-TEST_CASE("property: what is chosen depends on the seed alone, and not on the unit") {
+TEST_CASE("property: the result depends on the seed, not on the number of threads or the unit") {
   CHECK(rc::check("the same again", [] {
     const auto seed = *rc::gen::inRange(0u, 1000u);
     const point_matrix colours = greeting_card(*rc::gen::inRange<Eigen::Index>(60, 3000), seed);
@@ -155,7 +155,7 @@ TEST_CASE("property: what is chosen depends on the seed alone, and not on the un
   }));
 }
 
-TEST_CASE("coordinates are CIELAB, exposed to the brightest but for one in a hundred") {
+TEST_CASE("coordinates are CIELAB, scaled by the 99th percentile of the brightness") {
   point_matrix colours = point_matrix::Constant(201, 3, 0.5);
   colours.row(7) << 40.0, 40.0, 40.0;
   colours.row(8) << 0.25, 0.5, 0.0;

@@ -20,7 +20,7 @@ exposed_frame dark_row(double seconds, std::size_t pixels = 50) {
 
 }  // namespace
 
-TEST_CASE("dark signal: a line through dark frames tells all times") {
+TEST_CASE("dark signal: a line through dark frames gives the counts at all times") {
   const std::vector frames{dark_row(1.0), dark_row(1.0), dark_row(4.0), dark_row(4.0)};
   const dark_signal dark(frames);
   CHECK(dark.size() == 150);
@@ -42,7 +42,7 @@ TEST_CASE("dark signal: the first pixel may be hot, in any channel") {
   }
 }
 
-TEST_CASE("dark signal: frames of one time say nothing of others") {
+TEST_CASE("dark signal: frames of one exposure time determine no other time") {
   const std::vector frames{dark_row(2.0), dark_row(2.0)};
   const dark_signal dark(frames);
   CHECK(dark.count(0, 2.0) == doctest::Approx(120.0));

@@ -22,7 +22,7 @@ struct bent_wire {
 };
 static_assert(gonio::capture::positioner<bent_wire>);
 
-/// A filter whose green is a third of its red, and whose blue is zero.
+/// A sensor whose green signal is a third of its red, and whose blue is zero by default.
 struct photodiode {
   double red_per_second = 255.0;
   [[nodiscard]] std::uint16_t largest_count() const { return 255; }
@@ -78,7 +78,7 @@ TEST_CASE("device: the smallest models do what the concepts say") {
   CHECK(hand.measure(high).frames.size() >= 5);
 }
 
-TEST_CASE("device: a bracket takes the note's times first, and others where these do not show all") {
+TEST_CASE("device: a bracket takes the note's times first, then others if these do not cover the range") {
   photodiode eye{.red_per_second = 1000.0, .blue = 0.3};
   const gonio::capture::reading enough = gonio::capture::expose_bracket(eye);
   CHECK(enough.times ==
@@ -108,7 +108,7 @@ TEST_CASE("device: a bracket takes the note's times first, and others where thes
   CHECK(gonio::capture::expose_bracket(eye).times.back() == 1.0);
 }
 
-TEST_CASE("device: times beyond the camera's are brought to its own") {
+TEST_CASE("device: times outside the camera's limits are clamped") {
   photodiode eye{.red_per_second = 10.0};
   const std::vector beyond{1e-5, 20.0};
   const gonio::capture::reading taken = gonio::capture::expose_bracket(eye, beyond);

@@ -44,7 +44,7 @@ TEST_CASE("high dynamic range: without noise the radiance of four decades comes 
   }));
 }
 
-TEST_CASE("high dynamic range: the deviation is the one that is made") {
+TEST_CASE("high dynamic range: the stated deviation is the actual one") {
   const auto camera = camera_response::power_law(4095);
   const sensor_noise noise{2.0, 0.5, 0.01};
   std::mt19937_64 generator(3);
@@ -68,7 +68,7 @@ TEST_CASE("high dynamic range: the deviation is the one that is made") {
   }
 }
 
-TEST_CASE("high dynamic range: what no exposure shows is told apart") {
+TEST_CASE("high dynamic range: dark and saturated pixels are distinguished") {
   const auto camera = camera_response::power_law(255);
   const std::vector<std::uint16_t> dark(5, 0), bright(5, 255), both{0, 0, 255, 255, 255};
   const measured_radiance black = merge_exposures(dark, gonio::capture::note_exposure_times, camera);

@@ -48,7 +48,7 @@ TEST_CASE("k-means: clusters far apart are found from any seed, the largest firs
   }
 }
 
-TEST_CASE("k-means: property: every centre is the mean of its points and every point nearest to its own") {
+TEST_CASE("k-means: property: every centre is the mean of its points, and every point is nearest to its own centre") {
   CHECK(rc::check("at rest", [] {
     const auto n = *rc::gen::inRange<Eigen::Index>(5, 80), d = *rc::gen::inRange<Eigen::Index>(1, 4);
     const auto k = *rc::gen::inRange<Eigen::Index>(1, 6);
@@ -96,7 +96,7 @@ TEST_CASE("k-means: a cluster that loses its points takes the farthest one") {
   CHECK(several.inertia == 0.0);
 }
 
-TEST_CASE("k-means: points that coincide make as many clusters as they differ") {
+TEST_CASE("k-means: coincident points make as many clusters as there are distinct points") {
   point_matrix points(40, 2);
   for (Eigen::Index i = 0; i < 40; ++i) points.row(i) << static_cast<double>(i % 4 == 0), 2.0;
   const auto found = k_means(points, 2, 0);
@@ -131,7 +131,7 @@ TEST_CASE("k-means: bad input") {
   CHECK_THROWS_WITH_AS((void)k_means(points, 2, 0), doctest::Contains("point 3 is not finite"), gonio::error);
 }
 
-TEST_CASE("k-means: points that clusters were not made from go to the nearest centre, the first of equally near ones") {
+TEST_CASE("k-means: new points go to the nearest centre, the first of equally near ones") {
   const point_matrix centres = Eigen::VectorXd{{1000, 1002, 1002, 5}};
   const point_matrix points = Eigen::VectorXd{{1001.75, 1000.25, -3, 1001}};
   const auto found = gonio::capture::find_nearest(points, centres);

@@ -13,7 +13,7 @@ gonio::lens_camera surface_camera() {
 
 }  // namespace
 
-TEST_CASE("what is seen of a sphere lies on it, and faces the camera") {
+TEST_CASE("the visible points of a sphere lie on it, and their normals face the camera") {
   const gonio::capture::placed_sphere sphere{{0.2, -0.1, 0.5}, 0.8};
   const auto seen = gonio::capture::surface_of(sphere, surface_camera());
   Eigen::Index count = 0;

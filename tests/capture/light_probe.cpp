@@ -98,7 +98,7 @@ TEST_CASE("light probe: a camera in any direction gives the same map") {
     CHECK(error_of(axes, axes) < 0.02);
     CHECK(error_of(axes, axes * camera_axes(0.0, 0.0, radians(5.0))) > 0.03);
   }
-  // Eq. 8: a camera at +x that is level sees -z to its right and +y upwards.
+  // Eq. 8: a level camera at +x sees -z to its right and +y upwards.
   Eigen::Matrix3d expected;
   expected << 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0;
   CHECK((camera_axes(radians(90.0), 0.0) - expected).norm() < 1e-12);

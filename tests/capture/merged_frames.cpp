@@ -118,7 +118,7 @@ TEST_CASE("merged frames: hot pixels are named, and their values not trusted") {
   }
 }
 
-TEST_CASE("merged frames: a pixel is what the worst of its channels is") {
+TEST_CASE("merged frames: a pixel has the worst state of its channels") {
   merged_frames frames;
   frames.states.assign(12, value_state::usable);
   frames.states[1] = value_state::saturated;
@@ -130,7 +130,7 @@ TEST_CASE("merged frames: a pixel is what the worst of its channels is") {
   CHECK(frames.count(value_state::dark) == 2);
 }
 
-TEST_CASE("merged frames: the noise of the dark frames adds to that of the photograph") {
+TEST_CASE("merged frames: the noise of the dark frames adds to the noise of the photograph") {
   // The mean of two dark frames has half the variance of one: read noise and rounding to integers.
   const std::vector dark_frames{pixel_of(0.5, 0), pixel_of(0.5, 0)};
   const std::vector photograph{pixel_of(0.5, 1000)};
@@ -187,7 +187,7 @@ TEST_CASE("merged frames: the same bytes for any number of threads") {
   CHECK(one.states == three.states);
 }
 
-TEST_CASE("merged frames: what no exposure shows is told apart") {
+TEST_CASE("merged frames: dark, saturated and contradictory values are distinguished") {
   const auto responses = same_responses(camera_response::power_law(4095));
   // Two pixels: the first is the one tested, the second is always usable.
   const auto merged = [&](std::vector<std::uint16_t> counts) {

@@ -120,7 +120,7 @@ TEST_CASE("the region is the disc, the window, or both") {
   CHECK(static_cast<double>(beside) == doctest::Approx(static_cast<double>(disc)).epsilon(0.05));
 }
 
-TEST_CASE("a mask leaves pixels out, and the region's pixels are those that bring samples") {
+TEST_CASE("a mask excludes pixels, and the region's pixels are those with samples") {
   auto setup = ordinary_setup();
   const image picture = lab::photograph(paint, *setup.disc, setup);
   const auto region = gonio::capture::pixels_of_region(setup);
@@ -160,7 +160,7 @@ TEST_CASE("a sample's cones are the light's, and a receiver's that blurs half ve
   CHECK(samples[0].aperture.source == doctest::Approx(0.05).epsilon(0.01));
 }
 
-TEST_CASE("blocks average their pixels, and count by their share") {
+TEST_CASE("blocks average their pixels, and their weight is the fraction of used pixels") {
   auto setup = ordinary_setup();
   const image picture = lab::photograph(paint, *setup.disc, setup);
   const auto pixels = near_field_samples(picture, setup);
@@ -183,7 +183,7 @@ TEST_CASE("blocks average their pixels, and count by their share") {
   CHECK(root_mean_square_error(blocks) < 0.006);  // measured: 0.0041
 }
 
-TEST_CASE("noise is that of the pixels, less for blocks, and the seed's alone") {
+TEST_CASE("noise is as large as the pixels', smaller for blocks, and depends on the seed alone") {
   auto setup = ordinary_setup();
   const lab::near_field_defects noisy{.noise = 0.05};
   const image picture = lab::photograph(paint, *setup.disc, setup, noisy, 7);
@@ -194,7 +194,7 @@ TEST_CASE("noise is that of the pixels, less for blocks, and the seed's alone") 
   CHECK(root_mean_square_error(near_field_samples(picture, setup)) < 0.02);  // measured: 0.0171
 }
 
-TEST_CASE("a slight misalignment of light and camera costs what the paint's slope says") {
+TEST_CASE("the error from a slight misalignment of light and camera is bounded") {
   const auto setup = ordinary_setup();
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
@@ -237,7 +237,7 @@ TEST_CASE("saturated pixels are skipped with their blocks, and infinite ones if 
   CHECK_THROWS_WITH_AS(near_field_samples(picture, setup), doctest::Contains("saturated"), gonio::error);
 }
 
-TEST_CASE("pixels that are not finite are refused by their place if they see the region; negative ones are kept") {
+TEST_CASE("pixels that are not finite are refused by row and column if they see the region; negative ones are kept") {
   const auto setup = ordinary_setup();
   const auto image_with = [&](std::size_t row, std::size_t column, double value) {
     image picture = lab::photograph(paint, *setup.disc, setup);
@@ -253,7 +253,7 @@ TEST_CASE("pixels that are not finite are refused by their place if they see the
   CHECK(std::ranges::count_if(samples, [](const auto& s) { return s.value.y() < 0.0; }) == 1);
 }
 
-TEST_CASE("what cannot be measured is refused") {
+TEST_CASE("set-ups that cannot be measured are refused") {
   const auto refused = [](const std::function<void(near_field_setup&)>& change, const char* why) {
     near_field_setup setup = ordinary_setup();
     const image picture = lab::photograph(paint, *setup.disc, setup);
@@ -324,7 +324,7 @@ TEST_CASE("the paint's values come back through a lens that distorts, under a la
   CHECK(largest_error(near_field_samples(lab::photograph(paint, {.radius = 0.5}, setup), straight)) > 0.001);
 }
 
-TEST_CASE("a white image takes away vignetting, the lamp's intensity and its falloff") {
+TEST_CASE("a white image removes vignetting, the lamp's intensity and its falloff") {
   const auto setup = lamp_setup();
   const image picture = vignetted(lab::photograph(paint, {.radius = 0.5}, setup));
   gonio::capture::white_reference white{

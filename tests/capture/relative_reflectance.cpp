@@ -66,7 +66,8 @@ TEST_CASE("absolute reflectance: f = dL / dE, and the same as by a reference und
     const double f = number(1, 300), lamp = number(10, 1000), camera = number(10, 1000);
     const double solid_angle = number(1, 600), transmittance = number(1, 101);
     const illumination at{number(5, 101), number(50, 200)};
-    // A lamp of radiance L at the distance d: E = L Omega cos(theta_i) / d^2, where Omega is that at distance 1.
+    // A lamp of radiance L at the distance d: E = L Omega cos(theta_i) / d^2, where Omega is the solid angle at
+    // distance 1.
     const double irradiance = lamp * solid_angle * at.cosine / (at.distance * at.distance);
     const uncertain material{camera * f * irradiance, 0.0};
     const auto found =

@@ -7,7 +7,7 @@
 using gonio::direction_pair;
 using gonio::spherical_direction;
 
-TEST_CASE("scan: a plan has all that can be reached, by a short way, and names the rest") {
+TEST_CASE("scan: a plan is a short path through the reachable pairs, and names the others") {
   std::vector<direction_pair> pairs = synthetic_poses(12);
   pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(0.2, 1.0)});  // reachable by reciprocity
   pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(1.3, 1.0)});  // unreachable
@@ -25,7 +25,7 @@ TEST_CASE("scan: a plan has all that can be reached, by a short way, and names t
   for (const direction_pair& pose : plan.poses) CHECK(machine.place(pose).is_reachable());
 }
 
-TEST_CASE("scan: what is kept is not measured again") {
+TEST_CASE("scan: stored poses are not measured again") {
   synthetic_machine machine;
   synthetic_record record;
   const auto poses = synthetic_poses(5);
@@ -41,7 +41,7 @@ TEST_CASE("scan: what is kept is not measured again") {
   CHECK(machine.measured.size() == 3u);
 }
 
-TEST_CASE("scan: a device that fails once is tried again, one that fails twice is left for another time") {
+TEST_CASE("scan: a device that fails once is tried again; a pose that fails twice is left to the next scan") {
   synthetic_machine machine;
   synthetic_record record;
   int calls = 0;
@@ -60,7 +60,7 @@ TEST_CASE("scan: a device that fails once is tried again, one that fails twice i
   CHECK(gonio::capture::scan(machine, synthetic_poses(5), record).measured == 1u);
 }
 
-TEST_CASE("scan: a machine that keeps failing is given up, and what was measured is kept") {
+TEST_CASE("scan: a scan of a machine that keeps failing stops, and stored readings are kept") {
   synthetic_machine machine;
   synthetic_record record;
   machine.fault = [&](gonio::capture::reading&) {
@@ -74,7 +74,7 @@ TEST_CASE("scan: a machine that keeps failing is given up, and what was measured
   CHECK(record.kept.size() == 2u);
 }
 
-TEST_CASE("scan: another exception passes, and what was measured is kept") {
+TEST_CASE("scan: other exceptions propagate, and stored readings are kept") {
   synthetic_machine machine;
   synthetic_record record;
   machine.fault = [&](gonio::capture::reading&) {
@@ -84,7 +84,7 @@ TEST_CASE("scan: another exception passes, and what was measured is kept") {
   CHECK(record.kept.size() == 2u);
 }
 
-TEST_CASE("scan: a reading that is none is not kept") {
+TEST_CASE("scan: faulty readings are not stored") {
   using change = std::function<void(gonio::capture::reading&)>;
   const std::vector<std::pair<change, std::string>> faults{
       {[](gonio::capture::reading& taken) { taken = {}; }, "no frame"},

@@ -41,7 +41,7 @@ void refuses_outline(const gonio::image& picture, const std::string& why) {
 
 }  // namespace
 
-TEST_CASE("places of the outline give the sphere to the last digits, near and off the axis") {
+TEST_CASE("points of the outline give the sphere to the last digits, near and off the axis") {
   CHECK(rc::check([] {
     const auto within = [](int low, int high) { return *rc::gen::inRange(low, high) * 0.01; };
     const gonio::lens_camera camera = outline_camera({.k1 = within(-30, 30), .p1 = 0.002});
@@ -50,15 +50,15 @@ TEST_CASE("places of the outline give the sphere to the last digits, near and of
     const Eigen::Vector3d axis = (sphere.centre - camera.position()).normalized();
     const double sine = sphere.radius / (sphere.centre - camera.position()).norm(), cosine = std::sqrt(1 - sine * sine);
     const Eigen::Vector3d across = axis.unitOrthogonal(), beside = axis.cross(across);
-    std::vector<Eigen::Vector2d> places;
+    std::vector<Eigen::Vector2d> points;
     for (int i = 0; i < 40; ++i) {
       const double turn = i * 0.1;
       const Eigen::Vector3d towards = cosine * axis + sine * (std::cos(turn) * across + std::sin(turn) * beside);
       const auto seen_at = camera.project(camera.position() + towards);
       RC_PRE(seen_at.has_value());
-      places.push_back(*seen_at);
+      points.push_back(*seen_at);
     }
-    const auto found = gonio::capture::fit_sphere(places, camera, sphere.radius);
+    const auto found = gonio::capture::fit_sphere(points, camera, sphere.radius);
     RC_ASSERT((found.sphere.centre - sphere.centre).norm() < 1e-5);
     RC_ASSERT(found.deviation < 1e-6);
   }));
@@ -84,7 +84,7 @@ TEST_CASE("a photograph gives the sphere to a fifth of a pixel, to a pixel if li
   }
 }
 
-TEST_CASE("what the border of a photograph cuts off has no edge there") {
+TEST_CASE("an object that the border of a photograph cuts off has no edge there") {
   gonio::image picture = gonio::uniform_image(40, 60);
   for (std::size_t row = 10; row < 30; ++row)
     for (std::size_t column = 0; column < 20; ++column) gonio::set_pixel(picture, row, column, gonio::rgb::Ones());
@@ -107,7 +107,7 @@ TEST_CASE("a circle that somebody has drawn gives the sphere") {
   CHECK((found.sphere.centre - sphere.centre).norm() < 0.02);
 }
 
-TEST_CASE("what shows no sphere is refused") {
+TEST_CASE("photographs without a sphere are refused") {
   gonio::image picture = gonio::uniform_image(160, 200);
   refuses_outline(picture, "no sphere is found: nothing in the image differs from its border");
   for (std::size_t row = 40; row < 120; ++row)
@@ -120,7 +120,7 @@ TEST_CASE("what shows no sphere is refused") {
   CHECK_THROWS_AS(gonio::capture::fit_sphere({}, outline_camera(), -1.0), gonio::error);
 }
 
-TEST_CASE("of the photographs of one sphere the outline that most of its edge agrees with counts") {
+TEST_CASE("of the photographs of one sphere, the outline with the most inliers is used") {
   const auto find = [](const std::vector<Eigen::Index>& inliers) {
     return [inliers](Eigen::Index i) -> gonio::capture::fitted_outline {
       if (inliers[i] < 0) gonio::refuse("photograph " + std::to_string(i) + " shows too little");

@@ -35,7 +35,7 @@ TEST_CASE("a lamp's light falls off with the square of its distance, a distant l
   }
 }
 
-TEST_CASE("a white reference in place has the surface's own light, a board elsewhere its own") {
+TEST_CASE("a white reference at the surface has the surface's light, a board elsewhere its own") {
   const gonio::lens_camera camera = overhead_camera();
   const point_lamp lamp{{0.0, 0.0, 3.0}};
   const illumination here{0.8, 3.0};
@@ -55,7 +55,7 @@ TEST_CASE("a white reference in place has the surface's own light, a board elsew
   CHECK_FALSE(gonio::capture::white_illumination(white, lamp, 2, 2, here, 0.0));
 }
 
-TEST_CASE("as bright as a white reference is its reflectance over pi; half the light there is twice the BRDF") {
+TEST_CASE("equal radiance gives the reference's reflectance / pi; half the light gives twice the BRDF") {
   const rgb same =
       gonio::capture::relative_to_white(rgb(3.0, 2.0, 1.0), {0.5, 2.0}, rgb(3.0, 2.0, 1.0), 0.9, {0.5, 2.0});
   CHECK((same * std::numbers::pi / 0.9 - 1.0).abs().maxCoeff() < 1e-12);
@@ -67,7 +67,7 @@ TEST_CASE("as bright as a white reference is its reflectance over pi; half the l
   CHECK((gonio::capture::relative_to_white(rgb::Constant(-0.01), {}, rgb::Ones(), 1.0, {}) < 0.0).all());
 }
 
-TEST_CASE("lights and white references that cannot be are refused") {
+TEST_CASE("impossible lights and white references are refused") {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const auto refuses = [](const gonio::capture::surface_light& light, const char* why) {
     CHECK_THROWS_WITH_AS(gonio::capture::require_usable(light), doctest::Contains(why), gonio::error);

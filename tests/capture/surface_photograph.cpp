@@ -61,7 +61,7 @@ void refused_with(const Act& act, const std::string& why) {
 
 }  // namespace
 
-TEST_CASE("a photograph of a sphere under a lamp is the paint's values") {
+TEST_CASE("a photograph of a sphere under a lamp gives the paint's values") {
   const auto surface = surface_of(photographed_sphere, photograph_camera());
   const auto found = samples_of(take(), surface, photograph_camera(), photograph_lamp);
   CHECK(found.samples.size() > 500);
@@ -85,7 +85,7 @@ TEST_CASE("a pixel's receiver blurs half vectors as the sphere's normals within 
   CHECK(source == doctest::Approx(0.2 / (photograph_lamp.position.norm() - 0.7)).epsilon(0.05));
 }
 
-TEST_CASE("a white image takes away vignetting and falloff, which spoil a photograph alone") {
+TEST_CASE("a white image removes vignetting and falloff, which corrupt a photograph alone") {
   const auto surface = surface_of(photographed_sphere, photograph_camera());
   const lab::camera_defects dark{.vignetting = true};
   const gonio::image picture = take(dark);
@@ -112,7 +112,7 @@ TEST_CASE("noise is averaged in a cell, and stated") {
   CHECK(median_error(found.samples) < 0.7 * median_error(single.samples));
 }
 
-TEST_CASE("a map of a sphere's normals and positions is the sphere") {
+TEST_CASE("a map of a sphere's normals and positions gives the sphere's samples") {
   const gonio::lens_camera camera = photograph_camera();
   const auto surface = surface_of(photographed_sphere, camera);
   gonio::capture::vector_map normals({96, 112, 3}), positions({96, 112, 3});

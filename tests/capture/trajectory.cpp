@@ -113,7 +113,7 @@ TEST_CASE("trajectory: a pair above the arc is the same pair to an isotropic mat
   CHECK((above.wo - gonio::spherical_direction(0.5, 0.0)).norm() < 1e-12);
 }
 
-TEST_CASE("trajectory: every pose once, by a way that no stretch turned round shortens") {
+TEST_CASE("trajectory: every pose once, on a path that no reversed section shortens") {
   CHECK(rc::check("a way of scattered directions", [] {
     const auto directions = scattered(*rc::gen::inRange<std::size_t>(1, 25), *rc::gen::arbitrary<unsigned>());
     const auto order = gonio::capture::short_way(directions);

@@ -39,8 +39,8 @@ gonio::sample_set measured(const gonio::model::formula_brdf& material,
   return samples;
 }
 
-/// Returns the RMS difference of the logarithms where light and viewer are at least 15 degrees above the horizon.
-/// Closer to the horizon, a prior learned from MERL is too bright for a formula.
+/// Returns the root mean square difference of the logarithms where light and viewer are at least 15 degrees above the
+/// horizon. Closer to the horizon, a prior learned from MERL is too bright for a formula.
 double error_of(const gonio::brdf_table& estimate, const gonio::model::formula_brdf& truth) {
   double sum = 0.0, count = 0.0;
   for (Eigen::Index cell = 0; cell < estimate.cells().size(); cell += 101) {

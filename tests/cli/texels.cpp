@@ -113,7 +113,7 @@ TEST_CASE("texels: uncertainty and disagreement as images with a scale, and as a
   REQUIRE(drawn.shape(1) == 375);
   REQUIRE(drawn.shape(0) > 70);  // a scale below
   const gonio::rgb expected = gonio::render::sequential_colour(
-      gonio::render::place_by_factors(gonio::from_half(band.uncertainty[2 * 375 + 9]), 0.1, 5.0));
+      gonio::render::logarithmic_position(gonio::from_half(band.uncertainty[2 * 375 + 9]), 0.1, 5.0));
   CHECK((gonio::pixel(drawn, 45, 9) - expected).abs().maxCoeff() < 0.01);
   CHECK((gonio::pixel(drawn, 62, 9) == 0.0).all());
   const auto disagreement = gonio::io::read_npy<float, 2>(given.file("d.npy"));

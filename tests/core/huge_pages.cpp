@@ -30,7 +30,7 @@ TEST_CASE("huge pages: memory begins at a page of 2 MB if it has more than one, 
   CHECK(begin_of(floats(7)) % 64 == 0);
 }
 
-TEST_CASE("huge pages: more than there is memory throws, as other allocators do" * doctest::skip(sanitized)) {
+TEST_CASE("huge pages: requesting more than the memory throws, as other allocators do" * doctest::skip(sanitized)) {
   gonio::huge_page_allocator<float> allocator;
   CHECK_THROWS_AS(static_cast<void>(allocator.allocate(std::numeric_limits<std::size_t>::max() / 2)), std::bad_alloc);
   CHECK_THROWS_AS(static_cast<void>(allocator.allocate(std::size_t{1} << 59)), std::bad_alloc);

@@ -21,16 +21,16 @@ TEST_CASE("the nearest points are those that a search through all finds") {
     using points = gonio::k_d_tree<4>::points;
     const points all = points::NullaryExpr(4, count, [&] { return uniform(generator); });
     const gonio::k_d_tree<4> tree(all);
-    const Eigen::Vector4d place(uniform(generator), uniform(generator), uniform(generator), uniform(generator));
+    const Eigen::Vector4d query(uniform(generator), uniform(generator), uniform(generator), uniform(generator));
 
     std::vector<std::pair<double, std::uint32_t>> sorted;
     for (Eigen::Index i = 0; i < count; ++i)
-      sorted.emplace_back((all.col(i) - place).squaredNorm(), static_cast<std::uint32_t>(i));
+      sorted.emplace_back((all.col(i) - query).squaredNorm(), static_cast<std::uint32_t>(i));
     std::ranges::sort(sorted);
 
     std::array<std::uint32_t, 20> numbers{};
     std::array<double, 20> squared{};
-    const Eigen::Index found = tree.nearest(place.data(), wanted, numbers.data(), squared.data());
+    const Eigen::Index found = tree.nearest(query.data(), wanted, numbers.data(), squared.data());
     RC_ASSERT(found == std::min(count, wanted));
     for (Eigen::Index i = 0; i < found; ++i) {
       RC_ASSERT(numbers[i] == sorted[i].second);
@@ -38,7 +38,7 @@ TEST_CASE("the nearest points are those that a search through all finds") {
     }
 
     constexpr double radius = 0.8;
-    std::vector<Eigen::Index> expected, within = tree.within(radius, place.data());
+    std::vector<Eigen::Index> expected, within = tree.within(radius, query.data());
     for (const auto& [square, number] : sorted)
       if (square < radius * radius) expected.push_back(number);
     std::ranges::sort(expected);
@@ -47,13 +47,13 @@ TEST_CASE("the nearest points are those that a search through all finds") {
   }));
 }
 
-TEST_CASE("points at one place are all found") {
+TEST_CASE("points at one location are all found") {
   const gonio::k_d_tree<3>::points same = Eigen::Vector3d(1.0, 2.0, 3.0).replicate(1, 40);
   const gonio::k_d_tree<3> tree(same);
-  const Eigen::Vector3d place(1.0, 2.0, 3.0);
-  CHECK(tree.within(0.1, place.data()).size() == 40);
+  const Eigen::Vector3d query(1.0, 2.0, 3.0);
+  CHECK(tree.within(0.1, query.data()).size() == 40);
   std::array<std::uint32_t, 8> numbers{};
   std::array<double, 8> squared{};
-  CHECK(tree.nearest(place.data(), 8, numbers.data(), squared.data()) == 8);
+  CHECK(tree.nearest(query.data(), 8, numbers.data(), squared.data()) == 8);
   CHECK(squared.back() == 0.0);
 }

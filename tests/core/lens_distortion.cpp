@@ -53,7 +53,7 @@ TEST_CASE("a point on the ray of a pixel is projected to that pixel") {
   }));
 }
 
-TEST_CASE("what tangential coefficients draw inwards is seen up to the corners") {
+TEST_CASE("points that tangential coefficients move inwards are seen up to the corners") {
   for (const double p : {0.03, -0.03}) {
     const gonio::lens_camera camera(distortion_pinhole(), {.p1 = p, .p2 = p});
     for (const double column : {0.5, 639.5})
@@ -99,7 +99,7 @@ TEST_CASE("without coefficients it is the pinhole") {
   CHECK(camera.pixel_angle() == doctest::Approx(2.0 / 1390.0));
 }
 
-TEST_CASE("what folds within the image is refused, naming the radius") {
+TEST_CASE("a distortion that folds within the image is refused, naming the radius") {
   // 1 + 3 k1 r^2 = 0 at r = 0.471, which is imaged at 0.314. The corner is at 0.589.
   refuses_distortion({.k1 = -1.5}, "folds within the image: at a radius of 0.47");
   refuses_distortion({.p1 = 0.9}, "folds within the image");

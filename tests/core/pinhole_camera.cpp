@@ -35,7 +35,7 @@ pinhole_camera any_camera() {
 
 }  // namespace
 
-TEST_CASE("what a pixel's ray meets is projected to that pixel") {
+TEST_CASE("a point on a pixel's ray is projected to that pixel") {
   CHECK(rc::check([] {
     const pinhole_camera camera = any_camera();
     const double column = number_between(0.0, 640.0), row = number_between(0.0, 480.0);
@@ -98,7 +98,7 @@ TEST_CASE("a ray meets the ground from above alone") {
   CHECK_FALSE(gonio::ray{{1.0, 2.0, 4.0}, {1.0, 0.0, 0.0}}.at_ground().has_value());
 }
 
-TEST_CASE("what is no camera is refused") {
+TEST_CASE("impossible cameras are refused") {
   const auto refused = [](const std::function<void(camera_intrinsics&, Eigen::Matrix3d&, Eigen::Vector3d&)>& change,
                           const char* why) {
     camera_intrinsics intrinsics = camera_intrinsics::square(10, 1.0);

@@ -33,7 +33,7 @@ TEST_CASE("bytes that are no UTF-8 are written as their codes") {
   CHECK(printable("\xF4\x90\x80\x80\xFF") == "\\xf4\\x90\\x80\\x80\\xff");  // above U+10FFFF
 }
 
-TEST_CASE("what a message in parts quotes cannot steer a terminal") {
+TEST_CASE("text quoted by a message in parts cannot control a terminal") {
   const std::string name = "evil\x1b]0;title\x07.npy";
   const gonio::error refusal(gonio::message_of({name, ": holds elements of type '", "\x1b[31m", "'"}));
   CHECK(refusal.what() == std::string("evil\\x1b]0;title\\x07.npy: holds elements of type '\\x1b[31m'"));

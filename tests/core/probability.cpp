@@ -17,7 +17,7 @@ TEST_CASE("quantiles are those of the tables") {
   CHECK(3.0 * gonio::f_quantile(0.95, 3.0, 1e6) == doctest::Approx(7.8147).epsilon(1e-4));
 }
 
-TEST_CASE("shares that are none are refused") {
+TEST_CASE("shares that are not between 0 and 1 are refused") {
   CHECK_THROWS_WITH_AS(gonio::chi_square_quantile(1.0, 3.0), "a probability must be above 0 and below 1, not 1.000000",
                        gonio::error);
   CHECK_THROWS_AS(gonio::f_quantile(0.0, 3.0, 3.0), gonio::error);
@@ -35,7 +35,7 @@ TEST_CASE("upper tails are those of closed forms, however small") {
   CHECK(gonio::f_tail(-1.0, 3.0, 4.0) == 1.0);
 }
 
-TEST_CASE("a tail beyond a quantile is what is left") {
+TEST_CASE("the tail above a quantile is the complement of its share") {
   for (const double freedom : {1.0, 3.0, 15.0, 60.0}) {
     CHECK(gonio::chi_square_tail(gonio::chi_square_quantile(0.99, freedom), freedom) == doctest::Approx(0.01));
     CHECK(gonio::f_tail(gonio::f_quantile(0.99, freedom, 7.0), freedom, 7.0) == doctest::Approx(0.01));

@@ -12,7 +12,7 @@ using vector = std::vector<T, gonio::uninitialised_allocator<T>>;
 
 }  // namespace
 
-TEST_CASE("only numbers that nothing was said of have no value") {
+TEST_CASE("only numbers constructed without a value are uninitialised") {
   vector<int> numbers(3, 7);
   CHECK(numbers == vector<int>{7, 7, 7});
   numbers.resize(4, 1);

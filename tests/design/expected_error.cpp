@@ -228,10 +228,10 @@ TEST_CASE("materials with more channels that are all the same have the same erro
 
 TEST_CASE("out of sample it is what eta is chosen by") {
   const std::vector<Eigen::Index> cells{3, 60, 200, 222, 310};
-  std::vector<gonio::location> places;
-  for (const Eigen::Index cell : cells) places.push_back(gonio::locate_cell(small_cells(), cell));
+  std::vector<gonio::location> locations;
+  for (const Eigen::Index cell : cells) locations.push_back(gonio::locate_cell(small_cells(), cell));
   for (const gonio::log_relative_pca& basis : {candidate_basis(), spectral_candidate_basis()}) {
-    const gonio::leave_one_material_out_error chosen_by(basis, places, Eigen::VectorXd::Ones(5), 0.0);
+    const gonio::leave_one_material_out_error chosen_by(basis, locations, Eigen::VectorXd::Ones(5), 0.0);
     for (const double eta : {0.1, 3.0}) {
       const expected_error criterion(basis, {.eta = eta, .leave_out = true});
       CHECK(criterion(components_at(cells)) ==

@@ -34,7 +34,7 @@ TEST_CASE("a candidate is where it says, and nearest finds it again") {
 TEST_CASE("from the zenith the pixels see a cone of the field of view, all under the same light") {
   const near_field_geometry geometry({.field_of_view = radians(25), .pixels = 60});
   const auto seen = geometry.directions(candidate_at(geometry, 40, 0, 0));
-  // Pixels in a disc whose image has the relative diameter 60 asin'd / tan'd: nearly pi / 4 of the square.
+  // The disc's diameter is 60 r / tan(asin r) pixels with r = tan(12.5 degrees): nearly pi / 4 of the square.
   CHECK(seen.size() > 2500);
   CHECK(seen.size() < 3000);
   double steepest = 1.0, flattest = 0.0;

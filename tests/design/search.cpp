@@ -11,15 +11,15 @@ using gonio::design::capture_plan;
 namespace {
 
 /// Returns the sum of the distances, in cells, from three locations to the nearest cell of a design.
-double distance_from_places(std::span<const Eigen::Index> cells) {
+double distance_from_locations(std::span<const Eigen::Index> cells) {
   const auto& grid = small_cells().grid();
   double sum = 0.0;
-  for (const gonio::cell_index& place : {gonio::cell_index{1, 1, 0}, {4, 3, 5}, {6, 1, 2}}) {
+  for (const gonio::cell_index& location : {gonio::cell_index{1, 1, 0}, {4, 3, 5}, {6, 1, 2}}) {
     double nearest = 1e9;
     for (const Eigen::Index cell : cells) {
       const gonio::cell_index at = grid.cell(small_cells().linear(cell));
-      const int round = std::abs(at.phi_d - place.phi_d), phi = std::min(round, grid.extents().phi_d - round);
-      nearest = std::min(nearest, std::abs(at.theta_h - place.theta_h) + std::abs(at.theta_d - place.theta_d) +
+      const int round = std::abs(at.phi_d - location.phi_d), phi = std::min(round, grid.extents().phi_d - round);
+      nearest = std::min(nearest, std::abs(at.theta_h - location.theta_h) + std::abs(at.theta_d - location.theta_d) +
                                       static_cast<double>(phi));
     }
     sum += nearest;
@@ -36,7 +36,7 @@ const gonio::design::point_geometry& small_points() {
 bool no_step_improves(const capture_plan& plan) {
   capture_plan copy = plan;
   for (Eigen::Index position = 0; position < std::ssize(plan.candidates); ++position)
-    if (gonio::design::detail::move_one(small_points(), distance_from_places, copy, position, 1)) return false;
+    if (gonio::design::detail::move_one(small_points(), distance_from_locations, copy, position, 1)) return false;
   return true;
 }
 
@@ -47,17 +47,17 @@ TEST_CASE("descent ends where no step improves") {
     const auto any = rc::gen::inRange<Eigen::Index>(0, small_cells().size());
     const auto n = *rc::gen::inRange<Eigen::Index>(1, 5);
     const auto cells = *rc::gen::unique<std::vector<Eigen::Index>>(n, any);
-    const capture_plan found = gonio::design::descend(small_points(), distance_from_places, {cells, 0.0}, 3);
-    RC_ASSERT(found.value <= distance_from_places(cells));
-    RC_ASSERT(found.value == distance_from_places(found.candidates));
+    const capture_plan found = gonio::design::descend(small_points(), distance_from_locations, {cells, 0.0}, 3);
+    RC_ASSERT(found.value <= distance_from_locations(cells));
+    RC_ASSERT(found.value == distance_from_locations(found.candidates));
     RC_ASSERT(no_step_improves(found));
     RC_ASSERT(std::ssize(std::set<Eigen::Index>(found.candidates.begin(), found.candidates.end())) == n);
   }));
 }
 
-TEST_CASE("growing finds all three places from many tries, and the same for a seed") {
+TEST_CASE("growing finds all three locations from many tries, and the same for a seed") {
   const auto grown = [](Eigen::Index n, Eigen::Index tries, std::uint64_t seed) {
-    return gonio::design::grow_and_descend(small_points(), distance_from_places, n, tries, seed);
+    return gonio::design::grow_and_descend(small_points(), distance_from_locations, n, tries, seed);
   };
   CHECK(grown(3, 200, 1).value == 0.0);
   CHECK(grown(3, 5, 2).candidates == grown(3, 5, 2).candidates);
@@ -80,9 +80,9 @@ TEST_CASE("values may be negative or infinite: ties and rounding are no improvem
   CHECK_FALSE(improves(infinity, infinity));
   CHECK(improves(-1e-300, 0.0));
 
-  const auto below_zero = [](std::span<const Eigen::Index> cells) { return distance_from_places(cells) - 100.0; };
+  const auto below_zero = [](std::span<const Eigen::Index> cells) { return distance_from_locations(cells) - 100.0; };
   const capture_plan found = gonio::design::grow_and_descend(small_points(), below_zero, 3, 20, 6),
-                     same = gonio::design::grow_and_descend(small_points(), distance_from_places, 3, 20, 6);
+                     same = gonio::design::grow_and_descend(small_points(), distance_from_locations, 3, 20, 6);
   CHECK(found.candidates == same.candidates);
   CHECK(found.value == doctest::Approx(same.value - 100.0));
 }
@@ -90,14 +90,15 @@ TEST_CASE("values may be negative or infinite: ties and rounding are no improvem
 TEST_CASE("random swaps never make it worse, and all cells are a choice, too") {
   double before = 1e9;
   for (const Eigen::Index swaps : {0u, 10u, 100u, 5000u}) {
-    const capture_plan found = gonio::design::swap_at_random(small_points(), distance_from_places, 3, swaps, 7);
+    const capture_plan found = gonio::design::swap_at_random(small_points(), distance_from_locations, 3, swaps, 7);
     CHECK(found.value <= before);
-    CHECK(found.value == distance_from_places(found.candidates));
+    CHECK(found.value == distance_from_locations(found.candidates));
     before = found.value;
   }
   CHECK(before <= 3.0);
-  CHECK(gonio::design::swap_at_random(small_points(), distance_from_places, small_cells().size(), 10, 1).value == 0.0);
-  CHECK_THROWS_AS(static_cast<void>(gonio::design::swap_at_random(small_points(), distance_from_places, 0, 1)),
+  CHECK(gonio::design::swap_at_random(small_points(), distance_from_locations, small_cells().size(), 10, 1).value ==
+        0.0);
+  CHECK_THROWS_AS(static_cast<void>(gonio::design::swap_at_random(small_points(), distance_from_locations, 0, 1)),
                   gonio::error);
 }
 
@@ -109,7 +110,7 @@ TEST_CASE("no search chooses what the constraint excludes") {
     return std::ranges::all_of(plan.candidates, [&](Eigen::Index cell) { return points.allows(cell); });
   };
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    CHECK(all_allowed(gonio::design::grow_and_descend(points, distance_from_places, 3, 20, seed)));
-    CHECK(all_allowed(gonio::design::swap_at_random(points, distance_from_places, 3, 100, seed)));
+    CHECK(all_allowed(gonio::design::grow_and_descend(points, distance_from_locations, 3, 20, seed)));
+    CHECK(all_allowed(gonio::design::swap_at_random(points, distance_from_locations, 3, 100, seed)));
   }
 }

@@ -40,7 +40,7 @@ double measured_eta(const gonio::direction_pair& meant, double angle) {
 
 }  // namespace
 
-TEST_CASE("it is what the materials' values change by") {
+TEST_CASE("the penalty is the mean square change of the materials' values") {
   for (const auto& [theta_h, theta_d, phi_d] : {std::array{2.0, 20.0, 40.0}, std::array{8.0, 40.0, 90.0},
                                                 std::array{25.0, 10.0, 130.0}, std::array{40.0, 30.0, 60.0}}) {
     const auto pair = gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)});
@@ -53,7 +53,7 @@ TEST_CASE("it is what the materials' values change by") {
   }
 }
 
-TEST_CASE("nothing is wrong with what is in its place; errors of light and viewer add") {
+TEST_CASE("without an angular error there is no penalty; the penalties of light and viewer add") {
   const auto pair = gonio::to_directions({0.1, 0.6, 1.0});
   CHECK(gonio::angular_error_penalty(moved_prior(), pair, 0.0) == doctest::Approx(0.0).epsilon(1e-9));
   CHECK(gonio::angular_error_penalty(moved_prior(), pair, 0.01) >

@@ -75,7 +75,7 @@ TEST_CASE("a material of the prior comes back from a few samples") {
   CHECK(fit.report()->kkt_residual.maxCoeff() < 1e-9);
 }
 
-TEST_CASE("the system is what the equations say") {
+TEST_CASE("the system has the rows, weights and right-hand sides of the equations") {
   const auto truth = synthetic_materials(cells(), 8).table(1);
   const auto chosen = gonio::random_cells(cells(), 7, 1);
   auto samples = gonio::sample_table(truth, chosen);
@@ -108,7 +108,7 @@ TEST_CASE("channels that count apart are fitted each with its own weights") {
   }
 }
 
-TEST_CASE("noise in a channel that says so by its weight does less harm, and none to the other channels") {
+TEST_CASE("noise in a channel of low weight does less harm, and none to the other channels") {
   const auto truth = synthetic_materials(cells(), 8).table(5);
   double heeded = 0.0, ignored = 0.0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

@@ -14,7 +14,7 @@ const gonio::valid_cells& fine_cells() {
   return cells;
 }
 
-const gonio::log_relative_pca& misplaced_prior() {
+const gonio::log_relative_pca& fine_prior() {
   static const auto basis = learn(synthetic_materials(fine_cells(), 12), 100);
   return basis;
 }
@@ -29,7 +29,7 @@ std::vector<gonio::direction_pair> pairs_over_highlights() {
 
 /// Returns the mean over the cells of the squared mapped difference from a table.
 double error_of(const gonio::brdf_table& estimate, const gonio::brdf_table& truth) {
-  const auto& metric = misplaced_prior().metric();
+  const auto& metric = fine_prior().metric();
   double sum = 0.0;
   for (Eigen::Index cell = 0; cell < fine_cells().size(); ++cell)
     for (Eigen::Index c = 0; c < 3; ++c)
@@ -40,22 +40,22 @@ double error_of(const gonio::brdf_table& estimate, const gonio::brdf_table& trut
 
 }  // namespace
 
-TEST_CASE("samples in their places: the plain decomposition") {
+TEST_CASE("samples without angular errors: the plain decomposition") {
   const auto materials = synthetic_materials(fine_cells(), 3, 11);
   for (std::size_t m = 0; m < 3; ++m) {
     const auto samples = gonio::sample_table_misplaced(materials.table(m), pairs_over_highlights(), 0.0);
-    const auto plain = gonio::decomposition{misplaced_prior(), gonio::tikhonov{0.1}}.fit(samples);
-    const auto same = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples);
+    const auto plain = gonio::decomposition{fine_prior(), gonio::tikhonov{0.1}}.fit(samples);
+    const auto same = errors_in_variables_decomposition{fine_prior(), 0.1, 0.0}.fit(samples);
     CHECK((plain.weights() - same.weights()).norm() < 1e-9 * plain.weights().norm());
   }
 }
 
-TEST_CASE("samples off their places: less is lost by who expects it") {
+TEST_CASE("samples with angular errors: an estimator that expects them is more accurate") {
   const auto materials =
       synthetic_materials(fine_cells(), 12);  // materials of the prior: the angular error is the only error
   const double angle = radians(2.0);
-  const errors_in_variables_decomposition expecting{misplaced_prior(), 0.01, angle};
-  const gonio::decomposition trusting{misplaced_prior(), gonio::tikhonov{0.01}};
+  const errors_in_variables_decomposition expecting{fine_prior(), 0.01, angle};
+  const gonio::decomposition trusting{fine_prior(), gonio::tikhonov{0.01}};
   double expected = 0.0, trusted = 0.0;
   for (std::size_t m = 0; m < materials.names.size(); ++m)
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
@@ -71,35 +71,34 @@ TEST_CASE("samples off their places: less is lost by who expects it") {
 TEST_CASE("weights count, threads do not") {
   const auto truth = synthetic_materials(fine_cells(), 1, 5).table(0);
   auto samples = gonio::sample_table_misplaced(truth, pairs_over_highlights(), radians(1.0), 3);
-  const auto one = errors_in_variables_decomposition{misplaced_prior(), 0.1, radians(1.0), {1}}.fit(samples),
-             three = errors_in_variables_decomposition{misplaced_prior(), 0.1, radians(1.0), {3}}.fit(samples);
+  const auto one = errors_in_variables_decomposition{fine_prior(), 0.1, radians(1.0), {1}}.fit(samples),
+             three = errors_in_variables_decomposition{fine_prior(), 0.1, radians(1.0), {3}}.fit(samples);
   CHECK(one.weights() == three.weights());
   // A sample of weight two equals two samples.
   auto doubled = samples;
   samples[4].weight = 2.0;
   doubled.push_back(doubled[4]);
-  const errors_in_variables_decomposition estimator{misplaced_prior(), 0.1, radians(1.0)};
+  const errors_in_variables_decomposition estimator{fine_prior(), 0.1, radians(1.0)};
   CHECK((estimator.fit(samples).weights() - estimator.fit(doubled).weights()).norm() < 1e-8 * one.weights().norm());
   // Weights of other channels do not affect a channel.
   for (auto& s : samples) s.weight = gonio::rgb(1.0, 0.2, 3.0);
   CHECK((estimator.fit(samples).weights().col(0) - one.weights().col(0)).norm() > 0.0);
-  const auto apart = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).weights();
+  const auto apart = errors_in_variables_decomposition{fine_prior(), 0.1, 0.0}.fit(samples).weights();
   for (auto& s : samples) s.weight = 3.0;
-  const auto alike = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).weights();
+  const auto alike = errors_in_variables_decomposition{fine_prior(), 0.1, 0.0}.fit(samples).weights();
   CHECK((apart.col(2) - alike.col(2)).norm() < 1e-10 * alike.norm());
 }
 
-TEST_CASE("what cannot be is refused by who expects misplacement") {
-  CHECK_THROWS_WITH_AS(errors_in_variables_decomposition(misplaced_prior(), 0.0, 0.1), doctest::Contains("eta"),
+TEST_CASE("an impossible penalty, angle or sample set is refused") {
+  CHECK_THROWS_WITH_AS(errors_in_variables_decomposition(fine_prior(), 0.0, 0.1), doctest::Contains("eta"),
                        gonio::error);
-  CHECK_THROWS_WITH_AS(errors_in_variables_decomposition(misplaced_prior(), 40.0, -0.1),
+  CHECK_THROWS_WITH_AS(errors_in_variables_decomposition(fine_prior(), 40.0, -0.1),
                        doctest::Contains("the angular error of samples"), gonio::error);
-  CHECK_THROWS_AS(errors_in_variables_decomposition(misplaced_prior(), 40.0, std::nan("")), gonio::error);
-  CHECK_THROWS_AS((errors_in_variables_decomposition{misplaced_prior(), 40.0, 0.1}.fit(gonio::sample_set{})),
-                  gonio::error);
+  CHECK_THROWS_AS(errors_in_variables_decomposition(fine_prior(), 40.0, std::nan("")), gonio::error);
+  CHECK_THROWS_AS((errors_in_variables_decomposition{fine_prior(), 40.0, 0.1}.fit(gonio::sample_set{})), gonio::error);
 }
 
-TEST_CASE("samples that may be misplaced keep what is left of their weights beside the model's error") {
+TEST_CASE("weights of samples with angular errors are lowered relative to the model's error") {
   const gonio::log_relative_pca prior = learn(synthetic_materials(small_cells(), 8), 6);
   const gonio::discrepancy_model model;
   gonio::sample_set samples(gonio::channels({450.0, 550.0}));

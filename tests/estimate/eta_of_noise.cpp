@@ -93,7 +93,7 @@ TEST_CASE("leaving a material out is learning again without it") {
   }
 }
 
-TEST_CASE("noise adds what the reconstruction makes of it, and shifts what is measured") {
+TEST_CASE("noise adds the variance of the reconstruction, and shifts the measured values") {
   const auto& prior = twelve_materials();
   const auto cells = gonio::random_cells(small_cells(), 5, 1);
   const auto samples = measured_at(gonio::brdf_table(prior.cells()), cells);
@@ -115,16 +115,16 @@ TEST_CASE("noise adds what the reconstruction makes of it, and shifts what is me
   Eigen::MatrixXd rows(5, prior.size());
   for (Eigen::Index i = 0; i < 5; ++i) rows.row(i) = gonio::row_at(prior, located.locations[i]);
   const auto spread = gonio::map_noise(prior, located.locations, 0.3);
-  double energy = 0.0;
+  double squares = 0.0;
   for (Eigen::Index i = 0; i < 5; ++i) {
     const Eigen::MatrixXd one = Eigen::VectorXd::Unit(5, i) * std::sqrt(spread.variance[i]);
     const auto response = gonio::tikhonov(eta).solve(gonio::least_squares_problem{rows, one, located.weights}).weights;
-    energy += (prior.singular_values().asDiagonal() * response).squaredNorm();
+    squares += (prior.singular_values().asDiagonal() * response).squaredNorm();
   }
   const double quiet = at_one_eta(error_of(prior, cells, 0.0), eta),
                loud = at_one_eta(error_of(prior, cells, 0.3), eta);
-  REQUIRE(std::sqrt(energy) > 10.0 * quiet);
-  CHECK(loud == doctest::Approx(std::sqrt(energy)).epsilon(0.1));
+  REQUIRE(std::sqrt(squares) > 10.0 * quiet);
+  CHECK(loud == doctest::Approx(std::sqrt(squares)).epsilon(0.1));
 }
 
 TEST_CASE("the order of the locations does not matter, and weights have the units of eta") {
@@ -163,7 +163,7 @@ TEST_CASE("the chosen eta is the best of a dense scan, and grows with the noise"
   }
 }
 
-TEST_CASE("without a stated noise eta is what cross-validation chooses among the plausible ones") {
+TEST_CASE("without a stated noise, cross-validation chooses eta among the plausible ones") {
   const auto& prior = twelve_materials();
   const auto materials = synthetic_materials(small_cells(), 3, 99);
   for (const std::size_t count : {1u, 4u, 30u}) {

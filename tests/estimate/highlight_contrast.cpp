@@ -73,7 +73,7 @@ TEST_CASE("samples at all cells have the table's contrast, and that of a set's m
   CHECK((threaded == gonio::highlight_contrasts(contrast_reference(), set, wide, {1})).all());
 }
 
-TEST_CASE("property: weights average the mapped luminances, and what is between the regions does not matter") {
+TEST_CASE("property: weights average the mapped luminances, and samples between the regions do not matter") {
   CHECK(rc::check("weighted means", [] {
     const auto table = grey_table(*rc::gen::inRange(-2, 3) / 2.0, *rc::gen::inRange(-2, 3) / 2.0);
     auto samples = every_cell(table);
@@ -141,7 +141,7 @@ TEST_CASE("a set is split at the median, or where it is said") {
   CHECK(one.threshold == contrasts.maxCoeff());
 }
 
-TEST_CASE("what cannot be split is refused") {
+TEST_CASE("sets that cannot be split are refused") {
   auto set = synthetic_materials(small_cells(), 3);
   const auto split = [&](std::optional<double> threshold, const highlight_regions& regions = wide) {
     return gonio::split_by_contrast(set, contrast_reference(), threshold, regions);

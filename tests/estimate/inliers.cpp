@@ -56,7 +56,7 @@ std::vector<Eigen::Index> sizes(const std::vector<Eigen::Index>& all, const std:
 
 }  // namespace
 
-TEST_CASE("two wrong of twenty samples are found, and what they should be is told") {
+TEST_CASE("two wrong of twenty samples are found, and their predictions are reported") {
   int found = 0;
   constexpr int trials = 20;
   for (unsigned seed = 0; seed < trials; ++seed) {
@@ -144,7 +144,7 @@ TEST_CASE("of many samples outliers are rejected, and the first of them are name
   }
 }
 
-TEST_CASE("one sample more changes nothing but what it says") {
+TEST_CASE("one more sample hardly changes the weights of the others") {
   // Across the numbers of samples at which earlier versions changed the method, and across `most_judged`.
   for (const Eigen::Index count : sizes({12, 99, 500}, {12, 99})) {
     CAPTURE(count);
@@ -242,7 +242,7 @@ TEST_CASE("of many samples those of a narrow highlight are among those that are 
   CHECK(gonio::detail::judged_together(samples.subset(some)) == some);
 }
 
-TEST_CASE("a sample is told of by the channel that disagrees most, by a factor, and a negative one disagrees") {
+TEST_CASE("a sample is reported by the channel that disagrees by the largest factor; negative values count as zero") {
   gonio::outlying_sample each;
   each.predicted = {0.2, 0.1, 0.05};
   each.measured = {0.25, 0.11, 0.2};
@@ -253,7 +253,7 @@ TEST_CASE("a sample is told of by the channel that disagrees most, by a factor, 
   CHECK(each.worst_channel() == 0);
 }
 
-TEST_CASE("of many samples, what is off by more than a factor of three counts less than half") {
+TEST_CASE("of many samples, those off by more than a factor of three count less than half") {
   for (const double ratio : {0.2, 0.4}) {
     CAPTURE(ratio);
     const auto truth = synthetic_materials(outlying_cells(), 3, 100).table(1);

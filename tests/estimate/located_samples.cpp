@@ -28,7 +28,7 @@ const gonio::brdf_table& some_table() {
 
 }  // namespace
 
-TEST_CASE("samples are placed where they are, with their values and weights") {
+TEST_CASE("samples are located by their angles, with their values and weights") {
   CHECK(rc::check([] {
     const auto seed = *rc::gen::inRange(0, 1000);
     const bool apart = *rc::gen::arbitrary<bool>();
@@ -138,7 +138,7 @@ TEST_CASE("values of an estimate at locations: few are evaluated, many are read 
   }
 }
 
-TEST_CASE("what cannot be used is refused by the number of the sample or cell") {
+TEST_CASE("unusable values are refused by the number of the sample or cell") {
   CHECK_THROWS_WITH_AS(locate_samples(small_cells(), gonio::sample_set{}), doctest::Contains("no samples"),
                        gonio::error);
   gonio::sample_set samples{{{0.1, 0.2, 0.3}, gonio::rgb(1, 1, 1), 0.0}, {{0.3, 0.2, 0.3}, gonio::rgb(1, 1, 1), 0.0}};

@@ -33,7 +33,7 @@ gonio::brdf_table dipping_table(double depth) {
 
 }  // namespace
 
-TEST_CASE("brightness does not fall towards the mirror direction, and keeps what is brightest") {
+TEST_CASE("brightness does not fall towards the mirror direction, and keeps the brightest value") {
   CHECK(rc::check([] {
     const auto values = *rc::gen::container<std::vector<double>>(
         rc::gen::map(rc::gen::inRange(0, 1000), [](int value) { return value / 100.0; }));

@@ -93,14 +93,14 @@ TEST_CASE("all measurements equal, one, and two") {
   CHECK(two(-2.0) == doctest::Approx(two(3.0)).epsilon(0.05));
 }
 
-TEST_CASE("Student's t: the density of good residuals integrates to 1 and has the right tail") {
+TEST_CASE("Student's t: the density of inlier residuals integrates to 1 and has the right tail") {
   for (const double scale : {0.02, 0.3, 2.0}) {
     const outlier_mixture mixture{0.8, scale};
     // Outside 100 scales, a probability of 3.75 / 100^4 is missing on each side.
-    CHECK(integral([&](double r) { return mixture.good_density(r); }, -100 * scale, 100 * scale) ==
+    CHECK(integral([&](double r) { return mixture.inlier_density(r); }, -100 * scale, 100 * scale) ==
           doctest::Approx(1.0).epsilon(1e-6));
-    CHECK(mixture.good_density(0.0) == doctest::Approx(0.375 / scale));
-    CHECK(mixture.good_density(2 * scale) == doctest::Approx(0.375 / scale / std::pow(2.0, 2.5)));
+    CHECK(mixture.inlier_density(0.0) == doctest::Approx(0.375 / scale));
+    CHECK(mixture.inlier_density(2 * scale) == doctest::Approx(0.375 / scale / std::pow(2.0, 2.5)));
     CHECK(mixture.tail_weight(0.0) == 1.0);
     CHECK(mixture.tail_weight(2 * scale) == doctest::Approx(0.5));
   }
@@ -144,7 +144,7 @@ TEST_CASE("expectation-maximisation finds the share and the scale that residuals
     }
 }
 
-TEST_CASE("the mixture's limits: perfect residuals, none good, and a start at the solution") {
+TEST_CASE("the mixture's limits: perfect residuals, no inlier, and a start at the solution") {
   const std::vector<double> outliers(100, 0.2);
   const auto perfect = gonio::estimate_mixture(std::vector<double>(100, 0.0), outliers);
   CHECK(perfect.scale == 0.01);
@@ -160,7 +160,7 @@ TEST_CASE("the mixture's limits: perfect residuals, none good, and a start at th
   CHECK(one.inlier_fraction <= 0.999);
 }
 
-TEST_CASE("automatic weights tell outliers from good samples") {
+TEST_CASE("automatic weights tell outliers from inliers") {
   const auto made = synthetic_measurement_of(4000, 0.3, 0.03, 5);
   const auto mixture = automatic_weights{}.mixture(made.measured, made.estimated);
   // 1 - 0.3, with a standard error of 0.7 %. A few per cent of the outliers have the right value by chance.
@@ -171,18 +171,18 @@ TEST_CASE("automatic weights tell outliers from good samples") {
   CHECK(((weights >= 0.0f) && (weights <= 1.0f)).all());
   CHECK((weights.row(0) == weights.row(1)).all());
   CHECK((weights.row(0) == weights.row(2)).all());
-  double good = 0.0, bad = 0.0;
-  const auto bad_count = static_cast<double>(std::ranges::count(made.outlier, true));
-  for (std::size_t i = 0; i < made.outlier.size(); ++i) (made.outlier[i] ? bad : good) += double{weights(0, i)};
-  CHECK(good / (4000.0 - bad_count) > 0.75);  // the tail weight is 0.8 on average
-  CHECK(bad / bad_count < 0.15);
+  double inliers = 0.0, outliers = 0.0;
+  const auto outlier_count = static_cast<double>(std::ranges::count(made.outlier, true));
+  for (std::size_t i = 0; i < made.outlier.size(); ++i) (made.outlier[i] ? outliers : inliers) += double{weights(0, i)};
+  CHECK(inliers / (4000.0 - outlier_count) > 0.75);  // the tail weight is 0.8 on average
+  CHECK(outliers / outlier_count < 0.15);
   // Without the tail weight, inliers have nearly full weight.
   const auto whole = automatic_weights{.down_weight_tail = false}.weigh(made.measured, made.estimated);
   CHECK((whole >= weights).all());
-  double whole_good = 0.0;
+  double whole_inliers = 0.0;
   for (std::size_t i = 0; i < made.outlier.size(); ++i)
-    if (!made.outlier[i]) whole_good += double{whole(0, i)};
-  CHECK(whole_good / (4000.0 - bad_count) > 0.95);
+    if (!made.outlier[i]) whole_inliers += double{whole(0, i)};
+  CHECK(whole_inliers / (4000.0 - outlier_count) > 0.95);
 }
 
 TEST_CASE("automatic weights do not depend on the order of the channels") {

@@ -35,8 +35,8 @@ Eigen::Matrix3d turn_of(const Eigen::Vector3d& turn) {
 }
 
 /// Returns an image by a camera near the mirror direction of a light. Both are rotated by unknown angles. The radiance
-/// is divided by the cosine of the assumed direction of the light, or, with a white reference in place, by that of its
-/// true direction.
+/// is divided by the cosine of the assumed direction of the light, or, with a white reference in place, by the cosine
+/// of its true direction.
 template <class Material>
 sample_set image_of(const Material& truth, double theta, const pose_correction& turns = {},
                     gonio::light_calibration calibrated_by = gonio::light_calibration::irradiance) {
@@ -64,9 +64,9 @@ constexpr double eta = 1e-2, slight_eta = 1e-4;
 
 }  // namespace
 
-TEST_CASE("where light and camera are is found with the material") {
+TEST_CASE("the poses of light and camera are found with the material") {
   const pose_correction first{{0.01, -0.03, 0.0}, {-0.02, 0.025, 0.01}}, second{{0.0, 0.03, 0.02}, {0.01, -0.02, 0.0}};
-  const auto known_places = [&](const auto& truth) {
+  const auto fit_of_known_poses = [&](const auto& truth) {
     gonio::sample_set samples;
     for (const auto& [theta, turns] : {std::pair{0.5, first}, std::pair{0.9, second}})
       for (const gonio::sample& s : image_of(truth, theta, turns))
@@ -87,7 +87,7 @@ TEST_CASE("where light and camera are is found with the material") {
     // with known locations: 0.92 to 1.16.
     CHECK(refinement.objective() < 0.01 * objective);
     CHECK(mapped_error(refinement.result(), truth) < 0.3 * before);
-    CHECK(mapped_error(refinement.result(), truth) < 1.25 * mapped_error(known_places(truth), truth));
+    CHECK(mapped_error(refinement.result(), truth) < 1.25 * mapped_error(fit_of_known_poses(truth), truth));
   }
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("a light that turns takes its cosine along: at 75 degrees a degree of 
   }
 }
 
-TEST_CASE("without a step it is Tikhonov's solution; in place, light and camera stay there") {
+TEST_CASE("without a step it is Tikhonov's solution; correct poses of light and camera stay") {
   const auto truth = material(2);
   const std::vector<sample_set> images{image_of(truth, 0.5), image_of(truth, 0.9)};
   gonio::sample_set all = images[0];

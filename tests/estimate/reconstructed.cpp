@@ -137,7 +137,7 @@ TEST_CASE("more samples make surer, and intervals are nested and not negative") 
   CHECK((narrow.high >= value * (1.0 - 1e-9)).all());
 }
 
-TEST_CASE("certainty is the median of what is said of each direction") {
+TEST_CASE("certainty is the median over the directions") {
   const gonio::brdf_table table = synthetic_materials(posterior_cells(), 4, 91).table(2);
   const auto paint =
       posterior_estimator().fit_located(measured_at(gonio::random_cells(posterior_cells(), 12, 1), table));
@@ -162,7 +162,7 @@ TEST_CASE("certainty is the median of what is said of each direction") {
   CHECK(posterior_estimator().fit(more).certainty().highlight_factor < known.highlight_factor);
 }
 
-TEST_CASE("each residual is beside what a fit of all other samples says") {
+TEST_CASE("each residual is that of a fit to all other samples") {
   auto samples = gonio::sample_table(synthetic_materials(posterior_cells(), 4, 91).table(2),
                                      gonio::random_cells(posterior_cells(), 9, 5));
   samples[3].weight = 0.0;

@@ -64,10 +64,10 @@ TEST_CASE("the fit is the posterior mean of prior and discrepancy") {
 
   // The textbook formula: k(x, X) (k(X, X) + variance of the errors)^-1 y.
   const auto located = gonio::locate_samples(discrepancy_cells(), samples);
-  std::vector<gonio::half_difference> places;
-  for (const auto& at : located.locations) places.push_back(at.angles);
+  std::vector<gonio::half_difference> centres;
+  for (const auto& at : located.locations) centres.push_back(at.angles);
   const double m = 24.0;
-  const gonio::discrepancy_functions smooth(places, 1.0);
+  const gonio::discrepancy_functions smooth(centres, 1.0);
   const auto covariance = [&](const gonio::location& a, const gonio::location& b) {
     std::vector<double> x(25), y(25);
     smooth.read(a.angles, x.data());
@@ -123,7 +123,7 @@ TEST_CASE("the mean of the process is the ridge regression of components joined 
   }
 }
 
-TEST_CASE("what the components cannot say is learned from many samples") {
+TEST_CASE("the part that components cannot express is learned from many samples") {
   const gonio::brdf_table truth = wavy_material();
   const sample_set samples = gonio::sample_table(truth, gonio::random_cells(discrepancy_cells(), 200, 5));
   const double with = mapped_error(keeping_all(discrepancy_prior()).fit(samples).tabulate(discrepancy_cells()), truth);
@@ -155,7 +155,7 @@ TEST_CASE("noise that is stated takes weight from the samples") {
   CHECK(distance(0.1) < distance(0.0));
 }
 
-TEST_CASE("beyond the most centres, samples are still all heard") {
+TEST_CASE("with more samples than centres, all samples count") {
   const gonio::brdf_table truth = wavy_material();
   const sample_set samples = gonio::sample_table(truth, gonio::random_cells(discrepancy_cells(), 400, 5));
   const auto all = keeping_all(discrepancy_prior()).fit(samples).tabulate(discrepancy_cells());

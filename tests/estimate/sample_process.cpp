@@ -96,20 +96,20 @@ TEST_CASE("other values of the same samples share their covariance") {
   scratch::check_refused([&] { return process.with_values(Eigen::MatrixXd(5, 3)); }, {"6 samples", "not 5"});
 }
 
-TEST_CASE("other places are predicted as the textbook does") {
+TEST_CASE("other locations are predicted as the textbook does") {
   const gonio::sample_process process = some_process(7, 0.2, Eigen::MatrixXd::Ones(7, 1));
-  gonio::located_rows places{Eigen::MatrixXd::Random(3, 12), {}};
-  for (const double theta_h : {0.05, 0.3, 1.2}) places.angles.push_back({theta_h, 0.6, 0.2});
-  const Eigen::MatrixXd before = process.expected().among(places);
-  const auto [mean, covariance] = process.predict(places, before);
-  const Eigen::MatrixXd with = process.expected().between(places, process.at());
+  gonio::located_rows others{Eigen::MatrixXd::Random(3, 12), {}};
+  for (const double theta_h : {0.05, 0.3, 1.2}) others.angles.push_back({theta_h, 0.6, 0.2});
+  const Eigen::MatrixXd before = process.expected().among(others);
+  const auto [mean, covariance] = process.predict(others, before);
+  const Eigen::MatrixXd with = process.expected().between(others, process.at());
   const Eigen::LLT<Eigen::MatrixXd> factors(process.covariance());
   CHECK((mean - with * factors.solve(process.values())).norm() < 1e-9);
   CHECK((covariance - (before - with * factors.solve(with.transpose()))).norm() < 1e-9);
   for (Eigen::Index i = 0; i < 3; ++i)
-    CHECK(process.deviation(places.rows.row(i), places.angles[i]) ==
+    CHECK(process.deviation(others.rows.row(i), others.angles[i]) ==
           doctest::Approx(
-              std::sqrt(covariance(i, i) + gonio::error_variance_at(process.expected().model, places.angles[i]))));
+              std::sqrt(covariance(i, i) + gonio::error_variance_at(process.expected().model, others.angles[i]))));
 }
 
 TEST_CASE("familiarity shares the samples among components, discrepancy and errors") {
@@ -138,7 +138,7 @@ TEST_CASE("an error is larger where light or viewer graze") {
         doctest::Approx(0.01 + 0.2 / std::exp(1.0)));
 }
 
-TEST_CASE("doubts are beside the process, and what neighbours err together does not average out") {
+TEST_CASE("doubts add to the process, and errors that neighbours share do not average out") {
   const gonio::sample_process process = some_process(7, 0.2, Eigen::MatrixXd::Ones(7, 1)),
                               doubting = process.with_doubts();
   const auto& at = process.at().angles;
@@ -150,13 +150,13 @@ TEST_CASE("doubts are beside the process, and what neighbours err together does 
   CHECK((doubting.values() - process.values()).norm() == 0.0);
   CHECK_FALSE(process.expected().doubts);
   // The textbook formula for the deviation.
-  const gonio::half_difference place{0.4, 0.3, 1.0};
+  const gonio::half_difference here{0.4, 0.3, 1.0};
   const Eigen::RowVectorXd row = Eigen::RowVectorXd::LinSpaced(process.at().rows.cols(), -1.0, 1.0);
-  const Eigen::MatrixXd with = doubting.expected().between(process.at(), {row, {place}});
+  const Eigen::MatrixXd with = doubting.expected().between(process.at(), {row, {here}});
   const double before = row.squaredNorm() / process.expected().observations + model.variance + model.doubt.variance +
-                        gonio::error_variance_at(model, place);
+                        gonio::error_variance_at(model, here);
   const double variance = before - (with.transpose() * expected.llt().solve(with))(0, 0);
-  CHECK(doubting.deviation(row, place) == doctest::Approx(std::sqrt(variance)));
-  CHECK(doubting.deviation_before(row, place) == doctest::Approx(std::sqrt(before)));
-  CHECK(doubting.deviation(row, place) > process.deviation(row, place));
+  CHECK(doubting.deviation(row, here) == doctest::Approx(std::sqrt(variance)));
+  CHECK(doubting.deviation_before(row, here) == doctest::Approx(std::sqrt(before)));
+  CHECK(doubting.deviation(row, here) > process.deviation(row, here));
 }

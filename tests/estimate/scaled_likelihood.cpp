@@ -24,7 +24,7 @@ TEST_CASE("factor and likelihood: as likely as with the mixture that the differe
     const outlier_mixture made{share, scale};
     double expected = 0.0;
     for (const double each : differences)
-      expected += std::log(share * made.good_density(each - factor) + (1.0 - share) * 0.125);
+      expected += std::log(share * made.inlier_density(each - factor) + (1.0 - share) * 0.125);
     CHECK(found.log_likelihood > expected - 1.0);
     CHECK(found.log_likelihood < expected + 10.0);  // three fitted numbers gain little
   }

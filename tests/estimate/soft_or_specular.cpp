@@ -99,12 +99,12 @@ TEST_CASE("switch: materials measured everywhere go to the half that they came f
   }
 }
 
-TEST_CASE("switch: what is below the horizon is black") {
+TEST_CASE("switch: the fit is black below the horizon") {
   const soft_or_specular estimator{always{1.0}, always{2.0}, switch_reference(), 0.0};
   CHECK((estimator.fit(samples_of_contrast(1.0))({0, 0, 1}, {0, 0, -1}) == 0.0).all());
 }
 
-TEST_CASE("switch: samples that do not tell soft from specular are refused, and so is what cannot be") {
+TEST_CASE("switch: samples that do not distinguish soft from specular, and impossible regions, are refused") {
   const soft_or_specular estimator{always{1.0}, always{2.0}, switch_reference(), 0.0};
   auto samples = samples_of_contrast(1.0);
   const gonio::sample_set in_peak{samples[0]}, off_peak{samples[1]};

@@ -66,7 +66,7 @@ TEST_CASE("the estimate is the ridge reconstruction by the half that the samples
   CHECK(soft < 11);
 }
 
-TEST_CASE("what cannot be learned or estimated is refused") {
+TEST_CASE("materials and penalties that cannot be used are refused") {
   CHECK_THROWS_WITH_AS((void)gonio::learn_soft_specular_prior(halved_materials(), median_of_all(), 5, 1e6),
                        doctest::Contains("all 13 materials are soft"), gonio::error);
   CHECK_THROWS_AS((void)gonio::learn_soft_specular_prior(halved_materials(), median_of_all(), 0), gonio::error);

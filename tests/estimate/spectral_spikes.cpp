@@ -26,7 +26,7 @@ std::vector<double> visible_wavelengths() {
   return all;
 }
 
-/// What the spectra of a material have beside a smooth diffuse colour and a gloss.
+/// A feature of a material's spectra, in addition to a smooth diffuse colour and a gloss.
 enum class feature { none, absorption_line, fringes };
 
 double spectral_value(const direction& wi, const direction& wo, double nm, feature with) {
@@ -143,7 +143,7 @@ TEST_CASE("values are kept if nothing is rejected, and where fewer than four wav
   CHECK(spectral_estimator().fit(spectra(2)).spikes().empty());
 }
 
-TEST_CASE("a spike is told by its number in the caller's samples") {
+TEST_CASE("a spike is reported by its number in the caller's samples") {
   gonio::sample_set wrong = with_spike(spectra(20), 7, 12, 5.0);
   gonio::sample_set weighted(wrong.channels());
   for (Eigen::Index i = 0; i < std::ssize(wrong); ++i)
@@ -155,7 +155,7 @@ TEST_CASE("a spike is told by its number in the caller's samples") {
   CHECK(fit.spikes().front().number == 7);
 }
 
-TEST_CASE("a sample that is wrong at invisible wavelengths alone is rejected, and told by their names") {
+TEST_CASE("a sample that is wrong at invisible wavelengths alone is rejected, and reported by their names") {
   std::vector<double> wavelengths = visible_wavelengths();
   for (int nm = 900; nm <= 1700; nm += 100) wavelengths.push_back(nm);
   const gonio::sample_set right = spectra(20, feature::none, wavelengths);
@@ -173,7 +173,7 @@ TEST_CASE("a sample that is wrong at invisible wavelengths alone is rejected, an
   CHECK(spectral_estimator().keeping_all().fit(wrong).rejected().empty());
 }
 
-TEST_CASE("a sample that is wrong at visible and at invisible wavelengths is told once") {
+TEST_CASE("a sample that is wrong at visible and at invisible wavelengths is reported once") {
   std::vector<double> wavelengths = visible_wavelengths();
   for (int nm = 900; nm <= 1700; nm += 100) wavelengths.push_back(nm);
   gonio::sample_set wrong = spectra(20, feature::none, wavelengths);

@@ -221,7 +221,7 @@ TEST_CASE("another sample is judged as if it had been among those that were judg
   CHECK(odds(probability) == doctest::Approx(odds(together.probabilities()[80])).epsilon(0.05));
 }
 
-TEST_CASE("what neighbours have in common is no error") {
+TEST_CASE("a deviation that neighbours share is no error") {
   // All samples in the highlight are up to 31 times brighter than the prior expects. Elsewhere one sample is.
   auto samples = samples_to_judge(90);
   Eigen::Index alone = -1;

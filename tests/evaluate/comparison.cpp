@@ -217,7 +217,7 @@ TEST_CASE("a metric over another grid is read between its cells") {
   const valid_cells coarse(gonio::grid({8, 6, 10}));
   const comparison here = gonio::compare(estimate, truth, constant_reference(cells(), 0.1f), appearance());
   const comparison there = gonio::compare(estimate, truth, constant_reference(coarse, 0.1f), appearance());
-  // The reference cancels in a difference of logarithms. The cosine weight must be that of the truth's cell.
+  // The reference cancels in a difference of logarithms. The cosine weight must be from the truth's cell.
   CHECK((here.mapped_rms - there.mapped_rms).abs().maxCoeff() < 1e-12);
 
   const comparison weighted = gonio::compare(scaled(truth, rgb::Constant(2.0)), truth,

@@ -159,8 +159,8 @@ TEST_CASE("random pairs are those of random cells at random azimuths, and are me
   const gonio::sample_set noisy = gonio::sample_brdf(brushed, pairs, {.noise = 0.1}, 3);
   CHECK((noisy[7].value != clean[7].value).all());
   CHECK((noisy[7].value == gonio::sample_brdf(brushed, pairs, {.noise = 0.1}, 3)[7].value).all());
-  const gonio::sample_set spoilt = gonio::sample_brdf(brushed, pairs, {.outlier_ratio = 1.0}, 3);
-  CHECK(std::ranges::any_of(clean, [&](const gonio::sample& s) { return (s.value == spoilt[0].value).all(); }));
+  const gonio::sample_set corrupted = gonio::sample_brdf(brushed, pairs, {.outlier_ratio = 1.0}, 3);
+  CHECK(std::ranges::any_of(clean, [&](const gonio::sample& s) { return (s.value == corrupted[0].value).all(); }));
   CHECK_THROWS_AS(static_cast<void>(gonio::sample_brdf(brushed, pairs, {.noise = -1.0})), gonio::error);
   CHECK_THROWS_AS(static_cast<void>(gonio::random_pairs(table().cells(), 0, 1)), gonio::error);
 }

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-TEST_CASE("a completed table is its table, without what is negative") {
+TEST_CASE("a completed table is its table, with zeros for negative values") {
   auto table = synthetic_materials(small_cells(), 2).table(1);
   const float positive = table.values()[4];
   table.values()[3] = -0.5f;

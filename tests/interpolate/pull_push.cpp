@@ -195,7 +195,7 @@ TEST_CASE("a table over other cells is taken at the nearest ones") {
   CHECK(std::ranges::all_of(table.values(), [](float value) { return value > 0.0f; }));
 }
 
-TEST_CASE("negative measurements are averaged as they are; what stays negative becomes zero") {
+TEST_CASE("negative measurements are averaged as they are; negative results become zero") {
   const valid_cells cells(gonio::grid({4, 4, 4}));
   const auto at = cells.angles(0), elsewhere = cells.angles(cells.size() - 1);
   const auto table =

@@ -129,7 +129,7 @@ TEST_CASE("reciprocal bit by bit, isotropic up to rounding") {
   }
 }
 
-TEST_CASE("the value changes without steps, where one sample takes the place of another, too") {
+TEST_CASE("the value changes without steps, also where one neighbour replaces another") {
   std::mt19937_64 generator(6);
   const auto f = scattered_interpolation{}.fit(scattered_samples(100, generator));
   const auto at = [&](double x) {
@@ -163,7 +163,7 @@ TEST_CASE("samples count by their weights, and by those of each channel") {
   CHECK(known.y() == doctest::Approx(2.0));
 }
 
-TEST_CASE("what is negative in the end becomes zero; below the horizon there is nothing") {
+TEST_CASE("negative results become zero; the value below the horizon is zero") {
   const half_difference here{0.2, 0.3, 0.4};
   const auto [wi, wo] = to_directions(here);
   for (const auto domain : {interpolation_domain::reflectance, interpolation_domain::logarithm}) {
@@ -174,7 +174,7 @@ TEST_CASE("what is negative in the end becomes zero; below the horizon there is 
   }
 }
 
-TEST_CASE("tables have the same bytes for any number of threads, and approach what is sampled densely") {
+TEST_CASE("tables have the same bytes for any number of threads, and approach a densely sampled BRDF") {
   const auto truth = synthetic_materials(small_cells(), 3).table(1);
   sample_set samples;
   for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)

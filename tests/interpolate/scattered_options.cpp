@@ -10,7 +10,7 @@
 using gonio::half_difference;
 using gonio::scattered_options;
 
-TEST_CASE("a pair and its reciprocal are one place, and so are pairs turned about the normal") {
+TEST_CASE("a pair and its reciprocal are one location, and so are pairs turned about the normal") {
   const gonio::pair_embedding embed;
   const auto distance = [&](const half_difference& a, const half_difference& b) {
     const auto one = embed(a), other = embed(b);

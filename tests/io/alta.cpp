@@ -77,7 +77,7 @@ TEST_CASE("ALTA: the mirror direction is where azimuths differ by half a turn") 
   CHECK(at("0.5 0.5 0 1") == doctest::Approx(0.5));
 }
 
-TEST_CASE("ALTA: what the values are is read from the header") {
+TEST_CASE("ALTA: the header states the quantity of the values") {
   const auto first = [](const std::string& dimensions, const std::string& output, const std::string& values) {
     return read_alta(header(dimensions, "ISOTROPIC_TV_TL_DPHI", output) + "0.25 0.5 2 " + values + "\n# end\n", "x")
         .colours()[0]
@@ -91,14 +91,14 @@ TEST_CASE("ALTA: what the values are is read from the header") {
   CHECK(read_alta(plain + "0.25 1.5708 2 1\n0.25 0.5 2 1\n\n", "x").size() == 1);  // at the horizon
 }
 
-TEST_CASE("ALTA: such a file is told by its header") {
+TEST_CASE("ALTA: a file is recognised by its header") {
   CHECK(gonio::io::looks_like_alta(plain));
   CHECK(gonio::io::looks_like_alta("#PARAM_IN X\r\n#DIM\t3 1\r\n"));
   CHECK_FALSE(gonio::io::looks_like_alta("#DIM 3 1\n0 0 0 1\n#PARAM_IN X\n"));
   CHECK_FALSE(gonio::io::looks_like_alta("# PARAM_IN\n# DIM\ntheta_i,theta_o,brdf\n"));
 }
 
-TEST_CASE("ALTA: what is no such file is refused") {
+TEST_CASE("ALTA: bad files are refused") {
   check_alta_refused("", {"no line of numbers"});
   check_alta_refused(plain, {"no line of numbers"});
   check_alta_refused("#DIM 3 1\n#PARAM_OUT INV_STERADIAN\n0 0 0 1\n", {"line 3", "no line #PARAM_IN"});

@@ -30,7 +30,7 @@ TEST_CASE("every rule is read") {
   CHECK(none.noise == 0.0);
 }
 
-TEST_CASE("what is no rule is refused with its file and line") {
+TEST_CASE("a bad rule is refused; the error names file and line") {
   const auto refused = [](const char* text, const char* why) {
     CHECK_THROWS_WITH_AS(static_cast<void>(read_apparatus(text, "arc.txt")), doctest::Contains(why), gonio::error);
   };
@@ -55,7 +55,7 @@ TEST_CASE("what is no rule is refused with its file and line") {
   refused("misplaced 45\n", "'misplaced' must be at least 0 and less than 45");
 }
 
-TEST_CASE("a single angle has a tolerance, a range has one if it is said") {
+TEST_CASE("a single angle has a tolerance by default, a range only if stated") {
   const auto one = read_apparatus("light 45 45\nviewer 10 60\n", "arc.txt").constraint;
   CHECK(degrees(one.light.smallest) == doctest::Approx(44.5));
   CHECK(degrees(one.light.largest) == doctest::Approx(45.5));

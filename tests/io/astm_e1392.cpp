@@ -25,7 +25,7 @@ void check_astm_refused(const std::string& text, std::initializer_list<std::stri
 
 }  // namespace
 
-TEST_CASE("ASTM: directions in radians, red, green and blue as they are") {
+TEST_CASE("ASTM: directions are in radians; red, green and blue stay unchanged") {
   const auto samples =
       read_astm_e1392(astm_start + "R,G,B\r\n0.5,0,0.25,3.1,.1,.2,-.3\r\n\r\n0.5, 1, 0.25, -1.5, 1, 2, 3\n", "x");
   REQUIRE(samples.size() == 2);
@@ -37,7 +37,7 @@ TEST_CASE("ASTM: directions in radians, red, green and blue as they are") {
   CHECK((samples[1].value == gonio::rgb(1, 2, 3)).all());
 }
 
-TEST_CASE("ASTM: what the columns are is read from their names") {
+TEST_CASE("ASTM: the columns' names give their meaning") {
   const auto first = [](const std::string& columns, const std::string& row) {
     const auto samples = read_astm_e1392("VARS " + columns + "\n" + row + "\n", "x");
     REQUIRE(samples.size() == 1);
@@ -63,18 +63,18 @@ TEST_CASE("ASTM: what the columns are is read from their names") {
   CHECK(gonio::polar_angle(other_order.directions.pair().wi) == doctest::Approx(0.5));
 }
 
-TEST_CASE("ASTM: such a file is told by its line of names") {
+TEST_CASE("ASTM: a file is recognised by its line VARS") {
   CHECK(gonio::io::looks_like_astm_e1392(astm_start + "BRDF\n"));
   CHECK(gonio::io::looks_like_astm_e1392("VARS\ttheta_i,phi_i,theta_s,phi_s,BRDF\n"));
   CHECK_FALSE(gonio::io::looks_like_astm_e1392("theta_i,phi_i,theta_o,phi_o,r,g,b\n"));
   CHECK_FALSE(gonio::io::looks_like_astm_e1392(std::string(5000, ' ') + astm_start));
 }
 
-TEST_CASE("ASTM: grazing directions are no samples") {
+TEST_CASE("ASTM: directions at the horizon are skipped") {
   CHECK(read_astm_e1392(astm_start + "BRDF\n0.5,0,1.5708,3,.1\n0.5,0,1.5,3,.1\n", "x").size() == 1);
 }
 
-TEST_CASE("ASTM: what is no such file is refused") {
+TEST_CASE("ASTM: bad files are refused") {
   check_astm_refused("", {"ends before its line VARS"});
   check_astm_refused("KEY VALUE\n", {"ends before its line VARS"});
   check_astm_refused("NUM_POINTS many\n", {"line 1", "NUM_POINTS", "'many'"});
@@ -106,7 +106,7 @@ TEST_CASE("ASTM: any text is read or refused") {
   }));
 }
 
-TEST_CASE("ASTM: a shared paint, its numbers moved from Cornell's other format, comes out the same") {
+TEST_CASE("ASTM: a paint converted from Cornell's other format gives the same samples") {
   const scratch::fs::path path = GONIO_SHARED_DATA "/cornell/garnet_red.brdf";
   if (!scratch::fs::exists(path)) {
     MESSAGE("skipped: there is no " << path.string());

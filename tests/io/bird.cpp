@@ -11,7 +11,7 @@ using scratch::check_refused;
 
 namespace {
 
-/// `"name":{"unit":"unit","values":[values]` without the last brace, for what else an object has.
+/// `"name":{"unit":"unit","values":[values]` without the last brace, so that more entries can follow.
 std::string opened(const std::string& name, const std::string& unit, const std::string& values) {
   return "\"" + name + "\":{\"unit\":\"" + unit + "\",\"values\":[" + values + "]";
 }
@@ -20,7 +20,7 @@ std::string variable(const std::string& name, const std::string& unit, const std
   return opened(name, unit, values) + "}";
 }
 
-/// Two measurements at one direction, then one at another.
+/// Two measurements in one pair of directions, then one in another.
 const std::string three_directions = variable("theta_i", "deg", "30,30,0") + "," + variable("phi_i", "deg", "0,0,0") +
                                      "," + variable("theta_r", "\xC2\xB0", "60,60,45") + "," +
                                      variable("phi_r", "deg", "180,180,90");
@@ -58,7 +58,7 @@ TEST_CASE("BiRD: repeats are averaged, directions are degrees or radians") {
   CHECK(gonio::polar_angle(radians[0].directions.pair().wi) == doctest::Approx(0.5));
 }
 
-TEST_CASE("BiRD: wavelengths at one direction are its spectrum, in whatever order") {
+TEST_CASE("BiRD: wavelengths in one pair of directions make a spectrum, in any order") {
   const auto at_one_direction = [](const std::string& count, const std::string& wavelengths, const std::string& brdf) {
     return bird_file(variable("theta_i", "deg", count) + "," + variable("phi_i", "deg", count) + "," +
                      variable("theta_r", "deg", count) + "," + variable("phi_r", "deg", count) + "," + wavelengths +
@@ -100,7 +100,7 @@ TEST_CASE("BiRD: states of illumination must average to unpolarised light") {
   check_bird_refused(three_of(analysed), {"polarization_r", "analysed"});
 }
 
-TEST_CASE("BiRD: weights are by relative uncertainty, that of the median being 1") {
+TEST_CASE("BiRD: weights follow from relative uncertainty; the median has weight 1") {
   const auto weights = [](const std::string& more, const std::string& brdf = variable("BRDF", "sr^-1", "0.1,0.3,0.5")) {
     const auto samples = read_bird(three_of(more, brdf), "x");
     return std::array{samples[0].weight[0], samples[1].weight[0]};
@@ -109,7 +109,7 @@ TEST_CASE("BiRD: weights are by relative uncertainty, that of the median being 1
   const auto percent = weights(variable("uBRDF", "%", "1,1,2"), variable("BRDF", "sr^-1", "0.2,0.2,0.5"));
   CHECK(percent[0] == doctest::Approx(2.25));
   CHECK(percent[1] == doctest::Approx(2.25 / 4.0));
-  // Of 0.2 and of 0.5: 5 and 2 percent.
+  // 0.01 is 5 percent of 0.2 and 2 percent of 0.5.
   const auto absolute = weights(variable("uBRDF", "1/sr", "0.01,0.01,0.01"));
   CHECK(absolute[0] == doctest::Approx(3.5 * 3.5 / 25.0));
   CHECK(absolute[1] == doctest::Approx(3.5 * 3.5 / 4.0));
@@ -123,7 +123,7 @@ TEST_CASE("BiRD: weights are by relative uncertainty, that of the median being 1
   check_bird_refused(three_of(variable("uBRDF", "mm", "1,1,1")), {"uBRDF", "'mm'", "sr^-1 or %"});
 }
 
-TEST_CASE("BiRD: what is no such file is refused") {
+TEST_CASE("BiRD: bad files are refused") {
   check_bird_refused("", {"cut off"});
   check_bird_refused("[]", {"line 1", "the file: expected an object"});
   check_bird_refused("{}", {"no object 'data'"});
@@ -175,7 +175,7 @@ TEST_CASE("BiRD: a damaged file is read or refused") {
   }));
 }
 
-TEST_CASE("BiRD: the consortium's own example has one direction in four wavelengths, of s and p") {
+TEST_CASE("BiRD: the consortium's example has one pair of directions at four wavelengths, in s and p") {
   // "Test BRDF data files/example.brdf" of github.com/BiRD-project/BiRD_view
   const scratch::fs::path path = GONIO_SHARED_DATA "/field-formats/bird_example.brdf";
   if (!scratch::fs::exists(path)) {
@@ -189,7 +189,7 @@ TEST_CASE("BiRD: the consortium's own example has one direction in four waveleng
   CHECK((samples.colours()[0].value - gonio::spectral_colour(wavelengths)(values)).abs().maxCoeff() < 1e-9);
 }
 
-TEST_CASE("BiRD: solid angle and divergence are the cones of receiver and source") {
+TEST_CASE("BiRD: solid angle and divergence give the cones of receiver and source") {
   const auto with = [](const std::string& receiver, const std::string& beam) {
     return "{\"metadata\":{\"type\":\"BRDF\",\"instrumentation\":{\"name\":\"x\",\"illumination_system\":{\"beam\":{" +
            beam + "}},\"detection_system\":{\"sensors\":[{\"value\":7}],\"solid_angle\":{\"unit\":\"sr\",\"value\":" +

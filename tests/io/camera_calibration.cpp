@@ -55,7 +55,7 @@ TEST_CASE("OpenCV's calibrations are read, YAML and XML") {
   }
 }
 
-TEST_CASE("calibrations of fisheye lenses are refused, whose coefficients mean something else") {
+TEST_CASE("calibrations of fisheye lenses are refused: their coefficients have another meaning") {
   refuses_calibration("%YAML:1.0\n---\nfisheye_model: 1\n" + calibration_yaml.substr(14),
                       "'fisheye_model' is an unsupported lens model");
   refuses_calibration(calibration_yaml + "distortion_model: equidistant\n",
@@ -64,7 +64,7 @@ TEST_CASE("calibrations of fisheye lenses are refused, whose coefficients mean s
     CHECK(read_camera_calibration(calibration_yaml + usual, "camera").distortion.k1 == -0.28);
 }
 
-TEST_CASE("a set-up takes its camera from a calibration, or says it itself") {
+TEST_CASE("a set-up takes its camera from a calibration or states it, not both") {
   const auto calibration = read_camera_calibration(calibration_yaml, "camera.yml");
   const std::string pose = "position 0 0 12\ntarget 0 0 0\nup 0 1 0\nlamp 3 4 5\n";
   const auto setup = gonio::io::read_sphere_setup(pose, "setup.txt", calibration);

@@ -28,7 +28,7 @@ void check_recipe_refused(std::span<const std::byte> bytes, const std::string& w
 
 }  // namespace
 
-TEST_CASE("checked file: any payload comes back, the empty one too") {
+TEST_CASE("checked file: any payload is read back, even an empty one") {
   CHECK(rc::check([](const std::vector<std::uint8_t>& payload) {
     const auto bytes = std::as_bytes(std::span(payload));
     const auto back = io::read_checked(recipe_kind, io::write_checked(recipe_kind, bytes), "x");
@@ -49,20 +49,20 @@ TEST_CASE("checked file: the layout is the documented one") {
   CHECK(io::checksum(scratch::bytes_of("123456789")) == 0xcbf43926u);
 }
 
-TEST_CASE("checked file: another kind, and nothing at all") {
+TEST_CASE("checked file: another kind and an empty file are refused") {
   const std::string other = "not a gonio recipe (it does not start with 'gonio-recipe')";
   check_recipe_refused({}, other);
   check_recipe_refused(scratch::bytes_of("gonio-recip"), other);
   check_recipe_refused(io::write_checked({"gonio-sketch", 3, "sketch"}, {}), other);
 }
 
-TEST_CASE("checked file: another version") {
+TEST_CASE("checked file: another version is refused") {
   auto file = recipe();
   file[recipe_version_at] = std::byte{4};
   check_recipe_refused(file, "recipe format version 4, this program reads version 3");
 }
 
-TEST_CASE("checked file: a size that is not believable, and ones that lie") {
+TEST_CASE("checked file: implausible and false sizes are refused") {
   auto file = recipe();
   file[recipe_size_at + 7] = std::byte{1};
   check_recipe_refused(file, "a recipe of 72057594037927958 bytes cannot fit in");
@@ -72,13 +72,13 @@ TEST_CASE("checked file: a size that is not believable, and ones that lie") {
     file[recipe_size_at] = std::byte{size};
     check_recipe_refused(file, "expands to ");
   }
-  // Believable, but the data is too short for it: refused before memory is asked for.
+  // Believable, but the data is too short: refused before memory is allocated.
   file = recipe();
   file[recipe_size_at + 2] = std::byte{0x20};
   check_recipe_refused(file, "truncated");
 }
 
-TEST_CASE("checked file: a payload that shrinks more than readers believe comes back all the same") {
+TEST_CASE("checked file: a payload is read back even if deflate shrinks it implausibly") {
   std::vector<std::byte> payload(std::size_t{20} << 20);
   payload[7'000'000] = std::byte{9};
   const auto file = io::write_checked(recipe_kind, payload);
@@ -88,13 +88,13 @@ TEST_CASE("checked file: a payload that shrinks more than readers believe comes 
   CHECK(io::write_checked(recipe_kind, payload).size() < 10'000);
 }
 
-TEST_CASE("checked file: a checksum that does not match") {
+TEST_CASE("checked file: a wrong checksum is refused") {
   auto file = recipe();
   file[recipe_checksum_at] ^= std::byte{1};
   check_recipe_refused(file, "the checksum does not match, the file is damaged");
 }
 
-TEST_CASE("checked file: cut short or longer anywhere") {
+TEST_CASE("checked file: a truncated or longer file is refused") {
   const auto whole = recipe();
   for (std::size_t length = 0; length < whole.size(); ++length) {
     CAPTURE(length);
@@ -105,7 +105,7 @@ TEST_CASE("checked file: cut short or longer anywhere") {
   check_recipe_refused(longer, "1 bytes follow");
 }
 
-TEST_CASE("checked file: a flipped bit is refused, but for those that deflate does not use") {
+TEST_CASE("checked file: a flipped bit is refused unless deflate does not use it") {
   const auto whole = recipe(), payload = scratch::bytes_of("flour, water, and salt");
   std::size_t unused = 0;
   for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
@@ -121,10 +121,10 @@ TEST_CASE("checked file: a flipped bit is refused, but for those that deflate do
       CHECK(std::string(refusal.what()).starts_with("bread.recipe: "));
     }
   }
-  CHECK(unused < 8);  // the last block ends within a byte, and zlib's checksum begins at one
+  CHECK(unused < 8);  // the last block ends within a byte, and zlib's checksum begins at the next
 }
 
-TEST_CASE("checked file: a kind is known by how a file starts") {
+TEST_CASE("checked file: a file's kind is recognised by its first bytes") {
   const scratch::folder here;
   scratch::put(here / "bread.recipe", recipe());
   scratch::put(here / "start", std::string("gonio-recipe"));

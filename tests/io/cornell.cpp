@@ -18,7 +18,7 @@ void check_text_refused(const std::string& text, std::initializer_list<std::stri
 
 }  // namespace
 
-TEST_CASE("directions in radians, reflectances by wavelength") {
+TEST_CASE("Cornell: directions in radians, a reflectance for each wavelength") {
   const auto samples =
       read_cornell(start + "0.5 0 0.25 3.1 .1 .1 .1\r\n\t# and\n 0.5  1 0.25 -1.5 0 0 0.3\n", "x").colours();
   REQUIRE(samples.size() == 2);
@@ -32,7 +32,7 @@ TEST_CASE("directions in radians, reflectances by wavelength") {
   CHECK(samples[1].value.x() > samples[1].value.y());  // light at 650 nanometres only
 }
 
-TEST_CASE("what is no such file is refused") {
+TEST_CASE("Cornell: bad files are refused") {
   check_text_refused("", {"the file ends after"});
   check_text_refused("# only\n", {"the file ends after"});
   check_text_refused("many\n", {"line 1", "'many'", "not a number"});
@@ -57,7 +57,7 @@ TEST_CASE("what is no such file is refused") {
   check_refused([] { return gonio::io::read_cornell("/nowhere/paint.brdf"); }, {"/nowhere/paint.brdf"});
 }
 
-TEST_CASE("any text is read or refused") {
+TEST_CASE("Cornell: any text is read or refused") {
   CHECK(rc::check([] {
     const auto text = *rc::gen::container<std::string>(rc::gen::elementOf(std::string("0123456789.-+e \n#x")));
     const bool whole = *rc::gen::arbitrary<bool>();
@@ -69,7 +69,7 @@ TEST_CASE("any text is read or refused") {
   }));
 }
 
-TEST_CASE("the shared paints: a red and a blue one, positive, with highlights") {
+TEST_CASE("Cornell: of two measured paints, one is red and one is blue") {
   const scratch::fs::path folder = GONIO_SHARED_DATA "/cornell";
   if (!scratch::fs::exists(folder)) {
     MESSAGE("skipped: there is no " << folder.string());
@@ -88,7 +88,7 @@ TEST_CASE("the shared paints: a red and a blue one, positive, with highlights") 
   CHECK(sum(blue).z() > 1.5 * sum(blue).x());
 }
 
-TEST_CASE("Cornell's spectra as they are") {
+TEST_CASE("Cornell: spectra stay unchanged") {
   const std::string text = start + "0.5 0 0.25 3.1 .1 .2 .3\n0.5 1 0.25 -1.5 0 -1 0.3\n";
   const auto spectra = read_cornell(text, "x");
   CHECK(spectra.channels() == gonio::channels({450, 550, 650}));

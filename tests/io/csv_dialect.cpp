@@ -10,7 +10,7 @@
 using gonio::io::csv_dialect;
 using gonio::io::dialect_of;
 
-TEST_CASE("the separator is the one that stands most often in the header line, outside of quotes") {
+TEST_CASE("the separator is the most frequent one in the header line outside quotes") {
   CHECK(dialect_of("a,b,c").separator == ',');
   CHECK(dialect_of("a;b;c").separator == ';');
   CHECK(dialect_of("a\tb\tc").separator == '\t');
@@ -19,7 +19,7 @@ TEST_CASE("the separator is the one that stands most often in the header line, o
   CHECK(dialect_of("").separator == ' ');
   CHECK(dialect_of("a , b,\tc").separator == ',');
   CHECK(dialect_of("a;b, of c;d").separator == ';');
-  CHECK(dialect_of("a;b,c").separator == ',');  // of equals, the first
+  CHECK(dialect_of("a;b,c").separator == ',');  // equally frequent: the first
   CHECK(dialect_of("a;\"b, c, d\"").separator == ';');
   CHECK(gonio::io::description({';', ','}) == "semicolon-separated with decimal commas");
   CHECK(gonio::io::description({' ', '?'}) == "separated by blanks");
@@ -40,13 +40,13 @@ TEST_CASE("fields of a line, with quotes and without") {
   CHECK(fields("\t\"a\"\t \"b\"\t", '\t') == list{"", "a", "b", ""});
   CHECK(fields("  a \t b ", ' ') == list{"a", "b"});
   CHECK(fields(" \"a b\"  c \r", ' ') == list{"a b", "c"});
-  CHECK(fields("5\" lens,b", ',') == list{"5\" lens", "b"});  // a quote within is a letter
+  CHECK(fields("5\" lens,b", ',') == list{"5\" lens", "b"});  // a quote inside is a character
   CHECK(fields("\"a", ',')[1] == "a double quote is not closed on its line");
   CHECK(fields("a,\"b\"\"", ',')[1] == "a double quote is not closed on its line");
   CHECK(fields("\"a\"b,c", ',')[1] == "a field continues after its closing double quote");
 }
 
-TEST_CASE("quoted fields come back as they were") {
+TEST_CASE("quoted fields are read back, trimmed") {
   CHECK(rc::check([] {
     const char separator = *rc::gen::element(',', ';', '\t', ' ');
     const auto texts = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::string>>(
@@ -65,7 +65,7 @@ TEST_CASE("quoted fields come back as they were") {
   }));
 }
 
-TEST_CASE("the first decimal mark is that of all numbers") {
+TEST_CASE("the first decimal mark applies to all numbers") {
   double value = 0.0;
   csv_dialect german{';'};
   CHECK(german.read_number("12", value) == nullptr);
@@ -92,5 +92,5 @@ TEST_CASE("the first decimal mark is that of all numbers") {
   CHECK(value == 1234.5);
   csv_dialect unknown{';'};
   CHECK(unknown.read_number("1,x", value) != nullptr);
-  CHECK(unknown.decimal_mark == '?');  // what is no number shows nothing
+  CHECK(unknown.decimal_mark == '?');  // a faulty number sets no mark
 }

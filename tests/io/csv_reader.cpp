@@ -23,13 +23,13 @@ TEST_CASE("lines of a CSV file: comments, the header line, numbers in its dialec
   CHECK(csv.read_number(csv.fields()[1], x) == nullptr);
   CHECK(x == 1.5);
   CHECK(csv.dialect() == gonio::io::csv_dialect{';', ','});
-  CHECK(csv.place().line == 6);
+  CHECK(csv.position().line == 6);
   CHECK(next());
   CHECK(!next());
   CHECK(comments == std::vector<std::string>{" of Monday", " below"});
 }
 
-TEST_CASE("lines of a CSV file: what is refused") {
+TEST_CASE("lines of a CSV file: bad lines are refused") {
   const auto refuses = [](std::string_view text, const std::string& words) {
     check_refused(
         [&] {

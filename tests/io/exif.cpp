@@ -16,7 +16,7 @@ TEST_CASE("EXIF: the exposure time of a JPEG file is read") {
   CHECK_FALSE(read_exif_exposure_time(tiff_bytes::jpeg_of({}), "a.jpg"));
 }
 
-TEST_CASE("EXIF: what is no time, and what is no such file, is refused") {
+TEST_CASE("EXIF: implausible times and bad files are refused") {
   for (const auto& absurd : {std::pair<std::uint32_t, std::uint32_t>{0, 1}, {1, 0}, {0, 0}, {4000000000u, 1}})
     check_refused([&] { return read_exif_exposure_time(tiff_bytes::jpeg_of(absurd), "a.jpg"); },
                   {"a.jpg: an exposure time of", "expected from 1e-07 s to a day"});

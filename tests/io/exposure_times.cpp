@@ -9,7 +9,7 @@ using gonio::io::exposure_time_of_name;
 using gonio::io::read_exposure_times;
 using scratch::check_refused;
 
-TEST_CASE("exposure times: names say seconds, or fractions of one") {
+TEST_CASE("exposure times: names give seconds or fractions of a second") {
   CHECK(exposure_time_of_name("0.004s").value() == 0.004);
   CHECK(exposure_time_of_name("2s").value() == 2.0);
   CHECK(exposure_time_of_name("frame_0.5s").value() == 0.5);
@@ -21,7 +21,7 @@ TEST_CASE("exposure times: names say seconds, or fractions of one") {
   CHECK(exposure_time_of_name("frame-30s").value() == 30.0);
 }
 
-TEST_CASE("exposure times: other names say none") {
+TEST_CASE("exposure times: other names give none") {
   for (const char* name :
        {"", "s", "frame", "frames", "0.004", "frame_0.004s_b", "0s", "frame_.s", "1.2.3s", "99999999999s"}) {
     CAPTURE(name);
@@ -30,7 +30,7 @@ TEST_CASE("exposure times: other names say none") {
   check_refused([] { return exposure_time_of_name("frame_2_250s"); }, {"frame_2_250s", "'2' and '250'"});
 }
 
-TEST_CASE("exposure times: a table") {
+TEST_CASE("exposure times: a table is read") {
   const scratch::folder here;
   scratch::put(here / "times.csv", "# of Monday\nfile,seconds\na.png, 0.5\n\"b, c.png\" ,1/250\n");
   const auto times = read_exposure_times(here / "times.csv");
@@ -41,7 +41,7 @@ TEST_CASE("exposure times: a table") {
   CHECK(read_exposure_times(here / "german.csv") == times);
 }
 
-TEST_CASE("exposure times: from a tenth of a microsecond to a day are believable") {
+TEST_CASE("exposure times: times from 1e-7 s to a day are plausible") {
   for (const double seconds : {1e-7, 0.5, 86400.0}) CHECK_NOTHROW(gonio::io::require_believable_exposure(seconds, "a"));
   for (const double seconds : {0.99e-7, 86401.0, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
     CHECK_THROWS_WITH_AS(gonio::io::require_believable_exposure(seconds, "a.jpg"),

@@ -33,7 +33,7 @@ std::vector<std::byte> written_exr(const gonio::image& picture) {
   return scratch::bytes_of(scratch::get(here / "a.exr"));
 }
 
-/// All values differ.
+/// An image of distinct values.
 gonio::image counted_image(std::size_t rows, std::size_t columns) {
   gonio::image picture = gonio::uniform_image(rows, columns);
   for (std::size_t i = 0; i < picture.size(); ++i) picture.data()[i] = static_cast<float>(i) / 16.0f;
@@ -42,7 +42,7 @@ gonio::image counted_image(std::size_t rows, std::size_t columns) {
 
 }  // namespace
 
-TEST_CASE("OpenEXR rows: any rows are those of the whole image, however it is stored") {
+TEST_CASE("OpenEXR rows: any rows equal those of the whole image, for every kind of storage") {
   const scratch::folder here;
   const gonio::image whole = counted_image(70, 37);
   gonio::io::write_exr(here / "ours.exr", whole);
@@ -63,7 +63,7 @@ TEST_CASE("OpenEXR rows: any rows are those of the whole image, however it is st
   }
 }
 
-TEST_CASE("OpenEXR rows: not a number is left to the caller; a lone Y is grey") {
+TEST_CASE("OpenEXR rows: NaN is kept; a channel Y alone is grey") {
   const scratch::folder here;
   gonio::image picture = counted_image(20, 3);
   picture(17, 2, 1) = std::numeric_limits<float>::quiet_NaN();
@@ -87,7 +87,7 @@ TEST_CASE("OpenEXR rows: not a number is left to the caller; a lone Y is grey") 
   CHECK(pixel == std::vector<float>(3, 0.5f));
 }
 
-TEST_CASE("OpenEXR rows: files that are cut, that lie or whose tiles are huge are refused") {
+TEST_CASE("OpenEXR rows: truncated files, false sizes and huge tiles are refused") {
   const scratch::folder here;
   const auto refused = [&](const std::string& content, std::initializer_list<std::string> words) {
     scratch::put(here / "a.exr", content);
@@ -100,7 +100,7 @@ TEST_CASE("OpenEXR rows: files that are cut, that lie or whose tiles are huge ar
     const std::string whole = scratch::get(here / name);
     for (const std::size_t cut : {std::size_t{1}, std::size_t{100}, whole.size() / 2, whole.size() - 100})
       refused(whole.substr(0, whole.size() - cut), {"a.exr: cannot be decoded as OpenEXR"});
-    // More lines than are there: blocks are looked for where there are none.
+    // Claim more lines than the file has: their blocks are missing.
     std::string lying = whole;
     const auto window = lying.find("dataWindow");
     REQUIRE(window != std::string::npos);
@@ -128,7 +128,7 @@ TEST_CASE("OpenEXR rows: damaged files are read or refused") {
     });
 }
 
-TEST_CASE("OpenEXR: what was written is read, bit for bit") {
+TEST_CASE("OpenEXR: images are read back bit for bit") {
   const gonio::image picture = unusual_image();
   CHECK(gonio::io::read_exr(written_exr(picture), "a.exr") == picture);
   CHECK(rc::check("images of any size come back", [] {
@@ -141,26 +141,26 @@ TEST_CASE("OpenEXR: what was written is read, bit for bit") {
 
 TEST_CASE("OpenEXR: bad files and images are refused") {
   const std::vector<std::byte> whole = written_exr(unusual_image());
-  const auto parse = [](std::span<const std::byte> bytes) { return gonio::io::read_exr(bytes, "a.exr"); };
-  check_refused([&] { return parse(scratch::bytes_of("no image")); }, {"a.exr", "cannot be decoded as OpenEXR"});
-  check_refused([&] { return parse(std::span(whole).first(60)); }, {"a.exr"});
-  check_refused([&] { return parse(std::span(whole).first(whole.size() - 5)); }, {"a.exr"});
-  // Without its red channel, which is renamed.
+  const auto read = [](std::span<const std::byte> bytes) { return gonio::io::read_exr(bytes, "a.exr"); };
+  check_refused([&] { return read(scratch::bytes_of("no image")); }, {"a.exr", "cannot be decoded as OpenEXR"});
+  check_refused([&] { return read(std::span(whole).first(60)); }, {"a.exr"});
+  check_refused([&] { return read(std::span(whole).first(whole.size() - 5)); }, {"a.exr"});
+  // Rename the red channel.
   std::vector<std::byte> renamed = whole;
   const std::string text(reinterpret_cast<const char*>(whole.data()), whole.size());
   const auto red = text.find(std::string("\0R\0", 3));
   REQUIRE(red != std::string::npos);
   renamed[red + 1] = std::byte{'S'};
-  check_refused([&] { return parse(renamed); }, {"a.exr", "neither channels R, G and B nor Y"});
-  // An attribute that claims more than the file has, for which OpenEXR would reserve a gigabyte.
+  check_refused([&] { return read(renamed); }, {"a.exr", "neither channels R, G and B nor Y"});
+  // An attribute claims more bytes than the file has; OpenEXR would allocate a gigabyte.
   std::vector<std::byte> attribute = whole;
   const auto order = text.find(std::string("lineOrder\0lineOrder\0", 20));
   REQUIRE(order != std::string::npos);
-  attribute[order] = std::byte{'L'};  // one that OpenEXR does not know
+  attribute[order] = std::byte{'L'};  // unknown to OpenEXR
   attribute[order + 10] = std::byte{'L'};
   attribute[order + 23] = std::byte{0x40};
-  check_refused([&] { return parse(attribute); }, {"a.exr", "cannot be decoded as OpenEXR"});
-  // A size that is claimed.
+  check_refused([&] { return read(attribute); }, {"a.exr", "cannot be decoded as OpenEXR"});
+  // A large size is claimed.
   std::vector<std::byte> huge = whole;
   huge.resize(4096);
   const auto window = text.find("dataWindow");
@@ -168,7 +168,7 @@ TEST_CASE("OpenEXR: bad files and images are refused") {
   const std::size_t right = window + 10 + 1 + 5 + 1 + 4 + 8;  // names, their ends, a size, and the upper left corner
   huge[right] = huge[right + 4] = std::byte{0xFF};            // 256 rows
   huge[right + 1] = std::byte{0x3F};                          // of 16384 columns
-  check_refused([&] { return parse(huge); }, {"a.exr", "cannot fit in"});
+  check_refused([&] { return read(huge); }, {"a.exr", "cannot fit in"});
   const scratch::folder here;
   gonio::image unknown = unusual_image();
   unknown(1, 2, 0) = std::numeric_limits<float>::quiet_NaN();

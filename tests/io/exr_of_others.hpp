@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <filesystem>
 
-/// Where red, green and blue of an image are, and that they are in a file.
+/// Adds red, green and blue to a header; returns the frame buffer of an image.
 inline Imf::FrameBuffer channels_of(gonio::image& picture, Imf::Header& header) {
   Imf::FrameBuffer buffer;
   const std::size_t across = 3 * sizeof(float);
@@ -25,7 +25,7 @@ inline Imf::FrameBuffer channels_of(gonio::image& picture, Imf::Header& header) 
   return buffer;
 }
 
-/// Compressed in another way than ours, maybe from the last line up.
+/// Writes scan lines with any compression and line order.
 inline void put_lines(const std::filesystem::path& path, gonio::image picture, Imf::Compression compression,
                       Imf::LineOrder order = Imf::INCREASING_Y) {
   Imf::Header header(static_cast<int>(picture.shape(1)), static_cast<int>(picture.shape(0)));
@@ -37,7 +37,7 @@ inline void put_lines(const std::filesystem::path& path, gonio::image picture, I
   file.writePixels(static_cast<int>(picture.shape(0)));
 }
 
-/// In square tiles.
+/// Writes square tiles.
 inline void put_tiles(const std::filesystem::path& path, gonio::image picture, unsigned size) {
   Imf::Header header(static_cast<int>(picture.shape(1)), static_cast<int>(picture.shape(0)));
   header.setTileDescription(Imf::TileDescription(size, size));

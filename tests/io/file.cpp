@@ -21,7 +21,7 @@ using scratch::check_refused;
 
 namespace {
 
-/// While it lives, files cannot grow beyond a size: a disk that fills up.
+/// Limits the size of files while it exists, like a full disk.
 class file_size_limit {
  public:
   explicit file_size_limit(rlim_t size) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -41,7 +41,7 @@ class file_size_limit {
   rlimit old_{};
 };
 
-/// While it lives, root is nobody: permissions do not bind root.
+/// Makes root an ordinary user while it exists: permissions do not bind root.
 class ordinary_user {
  public:
   ordinary_user() : was_root_(geteuid() == 0 && seteuid(65534) == 0) {}
@@ -55,13 +55,13 @@ class ordinary_user {
   bool was_root_;
 };
 
-/// Unmounts when it goes.
+/// Unmounts the disk in its destructor.
 struct small_disk {
   const scratch::fs::path& folder;
   ~small_disk() { CHECK(::umount2(folder.c_str(), MNT_DETACH) == 0); }
 };
 
-/// Runs `work` in a process of its own, and says which signal ended it; 0 if none did.
+/// Runs `work` in a child process; returns the signal that ended it, 0 if none did.
 template <class Work>
 int signal_that_ends(Work&& work) {
   const pid_t child = ::fork();
@@ -75,7 +75,7 @@ int signal_that_ends(Work&& work) {
   return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
 }
 
-/// Half of a file, and then the end.
+/// Writes part of a file, then raises the signal.
 void write_half_and_die(const scratch::fs::path& path, staging held, int signal) {
   file_writer file(path, held);
   file.write(bytes_of(std::string(100'000, 'x')));
@@ -109,7 +109,7 @@ TEST_CASE("a file is read whole") {
   }
 }
 
-TEST_CASE("what is not a readable file is refused") {
+TEST_CASE("unreadable files are refused") {
   const scratch::folder here;
   check_refused([&] { return read_bytes(here / "absent"); }, {"absent", "cannot be read", "No such file"});
   check_refused([&] { return read_bytes(here.path()); }, {here.path().string(), "is a directory"});
@@ -191,7 +191,7 @@ TEST_CASE("a failing callback leaves the old file whole") {
   CHECK(here.entries() == 1);
 }
 
-TEST_CASE("a target that is no file is refused") {
+TEST_CASE("an impossible target is refused") {
   const scratch::folder here;
   const auto write_to = [](const scratch::fs::path& path) {
     return [path] {
@@ -305,7 +305,7 @@ TEST_CASE("a process that is killed while it writes leaves nothing behind") {
   CHECK(scratch::get(here / "a") == "old");
 }
 
-TEST_CASE("where files need a name, the next write into the folder removes what a killed process left") {
+TEST_CASE("the next write into a folder removes the named files of killed processes") {
   const scratch::folder here;
   CHECK(signal_that_ends([&] { write_half_and_die(here / "a", staging::named, SIGKILL); }) == SIGKILL);
   CHECK(here.entries() == 1);
@@ -314,7 +314,7 @@ TEST_CASE("where files need a name, the next write into the folder removes what 
   CHECK(scratch::get(here / "b") == "new");
 }
 
-TEST_CASE("a signal's handler removes the files that have a name") {
+TEST_CASE("a signal handler removes named temporary files") {
   const scratch::folder here;
   const auto die_tidily = [&](int signal) {
     return [&, signal] {
@@ -328,13 +328,13 @@ TEST_CASE("a signal's handler removes the files that have a name") {
   CHECK(here.entries() == 0);
 }
 
-TEST_CASE("a file that is refused a name is copied") {
+TEST_CASE("a file that cannot be linked is copied") {
   const scratch::folder here;
   scratch::put(here / "a", "old");
   permit(here / "a", 0640);
   const std::string content(200'000, 'x');
   const auto write_where_no_link_is_made = [&] {
-    // The way to a file without a name leads through /proc, which is gone when it is wanted.
+    // Linking an unnamed file needs /proc, which is unmounted before the commit.
     if (::unshare(CLONE_NEWNS) != 0 || ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) ::_exit(77);
     for (const char* name : {"a", "b"}) {
       file_writer file(here / name);
@@ -366,7 +366,7 @@ TEST_CASE("a file that is refused a name is copied") {
   CHECK(here.entries() == 2);
 }
 
-TEST_CASE("only what no process can go on with is removed") {
+TEST_CASE("only abandoned temporary files are removed") {
   const scratch::folder here;
   const std::string dead = std::to_string(2'000'000'000), other = std::to_string(::getppid());
   const auto name = [](const std::string& machine, const std::string& process) {
@@ -378,7 +378,7 @@ TEST_CASE("only what no process can go on with is removed") {
   const std::vector<std::string> kept{name(mine, other), name("another-machine-", dead), ".gonio-notes.tmp",
                                       ".gonio-x-1.tmp", "gonio-" + dead + "-0.tmp"};
   for (const std::string& each : kept) scratch::put(here / each, "kept");
-  file_writer unfinished(here / "b", staging::named);  // of this process, which lives
+  file_writer unfinished(here / "b", staging::named);  // by this process, which still runs
   write_atomically(here / "a", bytes_of("new"));
   CHECK(here.entries() == kept.size() + 2);
   for (const std::string& each : kept) CHECK(scratch::fs::exists(here / each));
@@ -386,7 +386,7 @@ TEST_CASE("only what no process can go on with is removed") {
   CHECK(here.entries() == kept.size() + 2);
 }
 
-TEST_CASE("files that need a name are written as those that need none") {
+TEST_CASE("named temporary files give the same result as unnamed ones") {
   const scratch::folder here;
   for (const std::string content : {"one", "two"}) {
     file_writer file(here / "a", staging::named);

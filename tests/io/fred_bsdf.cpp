@@ -23,7 +23,7 @@ void check_fred_refused(const std::string& text, std::initializer_list<std::stri
 
 }  // namespace
 
-TEST_CASE("FRED: a value for each viewer of each light, equal azimuths are the mirror direction's side") {
+TEST_CASE("FRED: a value for each pair of directions; equal azimuths mean the mirror direction's side") {
   const auto samples =
       read_fred_bsdf(start + "10\t0\n0\t0\t.1\n10 0 .2\n\n50\t20\n50\t20\t.5\n30\t110\t-.25\n90 0 1\n", "x");
   REQUIRE(samples.size() == 4);  // the last is at the horizon
@@ -38,12 +38,12 @@ TEST_CASE("FRED: a value for each viewer of each light, equal azimuths are the m
   CHECK(degrees(gonio::azimuth(wo)) == doctest::Approx(110.0));
 }
 
-TEST_CASE("FRED: such a file is told by its first line") {
+TEST_CASE("FRED: a file is recognised by its first line") {
   CHECK(gonio::io::looks_like_fred_bsdf(start));
   CHECK_FALSE(gonio::io::looks_like_fred_bsdf("type bsdf\n"));
 }
 
-TEST_CASE("FRED: what is no such file is refused") {
+TEST_CASE("FRED: bad files are refused") {
   check_fred_refused("", {"ends before"});
   check_fred_refused("type bsdf_data\n", {"ends before", "'format'"});
   check_fred_refused("type bsdf\n", {"line 1", "'type bsdf'", "'type bsdf_data'"});

@@ -14,7 +14,7 @@ using scratch::check_refused;
 
 namespace {
 
-/// Runs, and pixels that differ.
+/// An image of runs and of differing pixels.
 gonio::image stripes(std::size_t rows, std::size_t columns) {
   gonio::image picture({rows, columns, std::size_t{3}});
   for (std::size_t i = 0; i < picture.size(); ++i)
@@ -29,7 +29,7 @@ const std::string colour = "\x80\x40\x20\x81";
 
 }  // namespace
 
-TEST_CASE("HDR rows: any rows are those of the whole image") {
+TEST_CASE("HDR rows: any rows equal those of the whole image") {
   const scratch::folder here;
   for (const std::size_t columns : {3u, 40u, 700u}) {
     gonio::io::write_hdr(here / "a.hdr", stripes(9, columns));
@@ -45,7 +45,7 @@ TEST_CASE("HDR rows: any rows are those of the whole image") {
   }
 }
 
-TEST_CASE("HDR rows: what is stored, flat and in runs") {
+TEST_CASE("HDR rows: flat and run-length encoded rows are read") {
   const scratch::folder here;
   const auto pixel = [&](const std::string& content, Eigen::Index row, std::size_t column) {
     scratch::put(here / "a.hdr", content);
@@ -58,7 +58,7 @@ TEST_CASE("HDR rows: what is stored, flat and in runs") {
   const std::vector<float> expected{1.0f, 0.5f, 0.25f};
   CHECK(pixel(header("-Y 2 +X 1") + std::string(4, '\0') + colour, 1, 0) == expected);
   CHECK(pixel(header("-Y 2 +X 1") + std::string(4, '\0') + colour, 0, 0) == std::vector<float>(3, 0.0f));
-  // Rows of 8 pixels as they are, though runs are possible.
+  // Flat rows of 8 pixels, although runs are possible.
   std::string flat;
   for (int i = 0; i < 16; ++i) flat += colour;
   CHECK(pixel(header("-Y 2 +X 8") + flat, 1, 7) == expected);
@@ -69,7 +69,7 @@ TEST_CASE("HDR rows: what is stored, flat and in runs") {
   CHECK(pixel(header("-Y 2 +X 8") + runs + runs, 1, 5) == expected);
 }
 
-TEST_CASE("HDR rows: what the header says of colours and of the order of rows is applied") {
+TEST_CASE("HDR rows: the header's colours and order of rows are applied") {
   const scratch::folder here;
   const auto pixel = [&](const std::string& lines, const std::string& code = colour) {
     scratch::put(here / "a.hdr", "#?RADIANCE\n" + lines + "\n-Y 1 +X 1\n" + code);
@@ -102,7 +102,7 @@ TEST_CASE("HDR rows: what the header says of colours and of the order of rows is
   CHECK(found[0] == 1.0f);
 }
 
-TEST_CASE("HDR rows: a dark first pixel is no row of runs") {
+TEST_CASE("HDR rows: a dark first pixel does not begin a run-length encoded row") {
   const scratch::folder here;
   std::string flat("\x02\x02\x01\x70", 4);
   for (int i = 1; i < 8; ++i) flat += colour;
@@ -112,7 +112,7 @@ TEST_CASE("HDR rows: a dark first pixel is no row of runs") {
   CHECK(found(0, 1, 0) == 1.0f);
 }
 
-TEST_CASE("HDR rows: files that say more than they have are refused") {
+TEST_CASE("HDR rows: bad files are refused") {
   const scratch::folder here;
   const auto refused = [&](const std::string& content, std::initializer_list<std::string> words) {
     scratch::put(here / "a.hdr", content);

@@ -58,7 +58,7 @@ TEST_CASE("PNG holds sRGB, rounded and clipped") {
   const scratch::folder here;
   image picture({std::size_t{1}, std::size_t{4}, std::size_t{3}}, 0.0f);
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    picture(0, 1, channel) = 0.2140411f;  // code 127.5 / 255 is 0.21404; this is just above 127
+    picture(0, 1, channel) = 0.2140411f;  // just below code 127.5 of 255, 0.21404114
     picture(0, 2, channel) = 7.0f;
     picture(0, 3, channel) = -1.0f;
   }
@@ -87,7 +87,7 @@ TEST_CASE("a PNG in memory has the bytes of the file") {
   check_refused([&] { return gonio::io::write_png(picture, "gradient"); }, {"gradient: pixel", "nan"});
 }
 
-TEST_CASE("what a PNG holds is written again in the same bytes") {
+TEST_CASE("a PNG is read and written again with the same bytes") {
   const scratch::folder here;
   CHECK(rc::check("png round trip", [&] {
     image picture({*rc::gen::inRange<std::size_t>(1, 12), *rc::gen::inRange<std::size_t>(1, 12), std::size_t{3}});
@@ -118,7 +118,7 @@ TEST_CASE("grey, palette, alpha, 16 bits and interlaced PNGs are read") {
   CHECK(is_white(read(png(png_header(2, 2, 8, 0, 1), "\0\xFF\0\xFF\0\xFF\xFF"s))));
 }
 
-TEST_CASE("the codes of a PNG are those of the file, with 8 bits and with 16") {
+TEST_CASE("PNG codes of 8 and of 16 bits are read unchanged") {
   const scratch::folder here;
   using namespace std::string_literals;
   scratch::put(here / "a.png", png(png_header(2, 1, 16, 2), "\0\x12\x34\0\1\xFF\xFF\0\0\x0F\xA0\x80\0"s));
@@ -183,7 +183,7 @@ TEST_CASE("damaged PNG files are read or refused") {
     scratch::put(here / "a.png", bytes);
     return read_png(here / "a.png");
   });
-  // Behind right checksums the damage reaches stb.
+  // With correct checksums the damage reaches stb.
   std::mt19937 random(1);
   for (int round = 0; round < 500; ++round) {
     std::string rows;
@@ -251,7 +251,7 @@ TEST_CASE("bad HDR files are refused") {
     write_hdr(here / "valid.hdr", gradient(4, columns));
     const std::string valid = scratch::get(here / "valid.hdr");
     CHECK(read_hdr(here / "valid.hdr").shape(1) == columns);
-    // The start of "+X 40" is a smaller image.
+    // A file cut within "+X 40" declares a smaller image.
     const std::size_t begin = valid.find("+X "), end = valid.find('\n', begin);
     for (std::size_t size = 0; size < valid.size(); ++size)
       refused(valid.substr(0, size), {size < 11      ? "not a Radiance"
@@ -270,7 +270,7 @@ TEST_CASE("bad HDR files are refused") {
   refused(header("-Y 1 +X 99999") + "abcd", {"99999 x 1 pixels", "from 1 to 16384"});
   refused(header("-Y 16384 +X 16384") + "abcd", {"truncated"});
   refused(header("-Y 99999999999999999999 +X 1") + "abcd", {"pixels"});
-  // A run that leaves its row, a row of another length, which is taken for pixels, and runs of length zero.
+  // A run longer than its row, a row of another length (read as pixels), and runs of length zero.
   refused(header("-Y 1 +X 8") + "\x02\x02" + std::string(1, '\0') + "\x08\xFF" + std::string(20, 'x'),
           {"cannot be decoded"});
   refused(header("-Y 1 +X 8") + "\x02\x02" + std::string(1, '\0') + "\x09\x89" + std::string(20, 'x'), {"truncated"});

@@ -3,16 +3,16 @@
 
 #include <rapidcheck.h>
 
-using gonio::io::text_place;
+using gonio::io::text_position;
 using gonio::io::detail::json_reader;
 using scratch::check_refused;
 
 namespace {
 
-/// The whole text is one value.
+/// Returns the text of the only value.
 std::string skipped(const std::string& text) {
-  text_place place{"file.json", 0};
-  json_reader json(text, place);
+  text_position position{"file.json", 0};
+  json_reader json(text, position);
   const std::string value(json.skip());
   json.finish();
   return value;
@@ -26,11 +26,11 @@ void check_json_refused(const std::string& text, std::initializer_list<std::stri
 
 }  // namespace
 
-TEST_CASE("JSON: values are taken in the file's order, others skipped") {
+TEST_CASE("JSON: values are read in the file's order, others skipped") {
   const std::string text =
       "\xEF\xBB\xBF{ \"a\" : [1, -2.5e1,3],\n\"b\":{\"c\":[[],{}],\"d\":null},\"e\":\"x\\n\\u00b0\"}";
-  text_place place{"file.json", 0};
-  json_reader json(text, place);
+  text_position position{"file.json", 0};
+  json_reader json(text, position);
   json.open_object("file");
   REQUIRE(json.next_key() == "a");
   json.open_array("a");
@@ -47,15 +47,15 @@ TEST_CASE("JSON: values are taken in the file's order, others skipped") {
 
 TEST_CASE("JSON: escapes become UTF-8") {
   const auto string_of = [](const std::string& text) {
-    text_place place{"file.json", 0};
-    return json_reader(text, place).read_string("text");
+    text_position position{"file.json", 0};
+    return json_reader(text, position).read_string("text");
   };
   CHECK(string_of(R"("\"\\\/\b\f\r\t")") == "\"\\/\b\f\r\t");
   CHECK(string_of(R"("\u0041\u03bc\u20ac")") == "A\xCE\xBC\xE2\x82\xAC");
   CHECK(string_of(R"("\ud83d\ude00")") == "??");
 }
 
-TEST_CASE("JSON: every kind of value is known, and no other") {
+TEST_CASE("JSON: every kind of value is read, other text is refused") {
   for (const std::string text : {"{}", "[]", "[1,[2],{\"a\":[]}]", "\"\"", "0", "-1.5E-3", "true", "false", "null"})
     CHECK(skipped(" " + text + "\n") == text);
   check_json_refused("", {"cut off"});

@@ -57,7 +57,7 @@ std::string with(std::string text, const std::string& old, const std::string& fr
 
 }  // namespace
 
-TEST_CASE("Klems: a value for each pair of patches, of columns of light and rows of viewers") {
+TEST_CASE("Klems: a value for each pair of patches: columns are the light's, rows the viewer's") {
   const auto samples = read_klems_xml(klems("Columns", block("Transmission Front", "0") + front), "x");
   REQUIRE(samples.size() == 25);
   const auto& [wi, wo] = samples[5 * 2 + 3].directions.pair();  // row 2, column 3
@@ -73,7 +73,7 @@ TEST_CASE("Klems: a value for each pair of patches, of columns of light and rows
   CHECK(degrees(gonio::azimuth(rows[5 * 2 + 3].directions.pair().wi)) == doctest::Approx(-90.0));
 }
 
-TEST_CASE("Klems: the front of the visible light is read, or the back") {
+TEST_CASE("Klems: the front is read in visible light, the back if there is no front") {
   const std::string back = block("Reflection Back", with(numbers(" "), "0.0", "7.0"));
   CHECK(read_klems_xml(klems("Columns", back + front), "x")[0].value.x() == 0.0);
   CHECK(read_klems_xml(klems("Columns", back), "x")[0].value.x() == 7.0);
@@ -82,7 +82,7 @@ TEST_CASE("Klems: the front of the visible light is read, or the back") {
   check_klems_refused(klems("Columns", ""), {"no matrix"});
 }
 
-TEST_CASE("Klems: the block that is asked for is read") {
+TEST_CASE("Klems: the requested block is read") {
   using gonio::io::window_block;
   const std::string back = block("Reflection Back", "7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7 7");
   const std::string both = klems("Columns", front + back);
@@ -98,12 +98,12 @@ TEST_CASE("Klems: the block that is asked for is read") {
                 {"has no 'Reflection Back' of 'Solar'", "'Reflection Front' of 'Visible'"});
 }
 
-TEST_CASE("Klems: such a file is told by its root element") {
+TEST_CASE("Klems: a file is recognised by its root element") {
   CHECK(gonio::io::looks_like_klems_xml(klems("Columns", front)));
   CHECK_FALSE(gonio::io::looks_like_klems_xml("<opencv_storage>"));
 }
 
-TEST_CASE("Klems: what is no such file is refused") {
+TEST_CASE("Klems: bad files are refused") {
   const std::string good = klems("Columns", front);
   check_klems_refused("<WindowElement>\n", {"line 1", "no element <DataDefinition>"});
   check_klems_refused("<WindowElement>\n<DataDefinition>", {"line 2", "<DataDefinition> is not closed"});

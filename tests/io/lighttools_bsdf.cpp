@@ -38,11 +38,11 @@ void check_lighttools_refused(const std::string& text, std::initializer_list<std
 
 }  // namespace
 
-TEST_CASE("LightTools: a value for each azimuth and polar angle, the light being at azimuth 90") {
+TEST_CASE("LightTools: a value for each azimuth and polar angle; the light is at azimuth 90") {
   const auto read = read_lighttools_bsdf(good, "x");
   CHECK(read.channels().wavelengths() == std::vector{550.0});
   const auto samples = read.in_three_channels();
-  // Not the normal in each row, nor azimuth -270 again, nor the horizon.
+  // The normal and azimuth 90 (-270) are read once, the horizon is skipped.
   REQUIRE(samples.size() == 4);
   CHECK(samples[0].value.x() == 1.0);
   CHECK(samples[1].value.x() == 2.0);
@@ -58,7 +58,7 @@ TEST_CASE("LightTools: a value for each azimuth and polar angle, the light being
   CHECK(degrees(samples[3].angles().theta_d) == doctest::Approx(25.0));  // on the mirror direction's
 }
 
-TEST_CASE("LightTools: reflection of the front is read, or of the back") {
+TEST_CASE("LightTools: the front's reflection is read, the back's if there is no other") {
   const std::string front = block("AOI 20\nScatterType BRDF\nSide Front", "7"),
                     back = block("AOI 20\nScatterType BRDF\nSide Back", "4"),
                     through = block("AOI 20\nScatterType BTDF", "9");
@@ -67,7 +67,7 @@ TEST_CASE("LightTools: reflection of the front is read, or of the back") {
   check_lighttools_refused(header + through, {"no block of ScatterType BRDF"});
 }
 
-TEST_CASE("LightTools: wavelengths are spectra, and X, Y and Z a colour") {
+TEST_CASE("LightTools: wavelengths make spectra, X, Y and Z a colour") {
   const auto at = [](const std::string& incidence, const std::string& wavelength, const std::string& first) {
     return block("AOI " + incidence + "\nWavelength " + wavelength, first);
   };
@@ -90,7 +90,7 @@ TEST_CASE("LightTools: wavelengths are spectra, and X, Y and Z a colour") {
   check_lighttools_refused(xyz + block("AOI 20"), {"line 10", "no TristimulusValue"});
 }
 
-TEST_CASE("LightTools: such a file is told by its keywords, and Zemax's is none") {
+TEST_CASE("LightTools: a file is recognised by its keywords, Zemax's are not") {
   CHECK(gonio::io::looks_like_lighttools_bsdf(good));
   CHECK(gonio::io::looks_like_zemax_bsdf(good));
   CHECK_FALSE(gonio::io::looks_like_lighttools_bsdf(header + "TIS 0.5\n1 2 3"));
@@ -98,7 +98,7 @@ TEST_CASE("LightTools: such a file is told by its keywords, and Zemax's is none"
   CHECK_FALSE(gonio::io::looks_like_lighttools_bsdf("Source Measured\n"));
 }
 
-TEST_CASE("LightTools: what is no such file is refused") {
+TEST_CASE("LightTools: bad files are refused") {
   check_lighttools_refused("", {"ends before DataBegin"});
   check_lighttools_refused("Symmetry", {"ends before Symmetry"});
   check_lighttools_refused(with(good, "Symmetry ", "Symmetries "), {"line 2", "'Symmetries'", "above DataBegin"});

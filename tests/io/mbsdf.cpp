@@ -31,17 +31,17 @@ std::string block(const std::string& ident, std::uint32_t type, std::uint32_t po
   return {reinterpret_cast<const char*>(writer.bytes().data()), writer.bytes().size()};
 }
 
-mbsdf_material parsed(const std::string& content) { return read_mbsdf(bytes_of(content), "paint.mbsdf"); }
+mbsdf_material read_text(const std::string& content) { return read_mbsdf(bytes_of(content), "paint.mbsdf"); }
 
 void check_mbsdf_refused(const std::string& content, std::initializer_list<std::string> words) {
-  check_refused([&] { return parsed(content); }, {"paint.mbsdf"});
-  check_refused([&] { return parsed(content); }, words);
+  check_refused([&] { return read_text(content); }, {"paint.mbsdf"});
+  check_refused([&] { return read_text(content); }, words);
 }
 
 }  // namespace
 
-TEST_CASE("MBSDF: a block has its type and sizes, then theta_in, theta_out and phi, which is fastest") {
-  const mbsdf_material scalar = parsed(magic + block("MBSDF_DATA=", 0, 2, 3));
+TEST_CASE("MBSDF: a block has its type and sizes, then values; phi varies fastest, theta_in slowest") {
+  const mbsdf_material scalar = read_text(magic + block("MBSDF_DATA=", 0, 2, 3));
   CHECK(scalar.reflection.grid() == gonio::model::polar_grid{2, 3});
   CHECK(scalar.reflection.channels() == 1);
   CHECK(scalar.reflection.values()[11] == 11.0f);
@@ -50,15 +50,15 @@ TEST_CASE("MBSDF: a block has its type and sizes, then theta_in, theta_out and p
   const auto wi = gonio::spherical_direction(gonio::radians(22.5), 0.0);
   const auto wo = gonio::spherical_direction(gonio::radians(67.5), gonio::radians(150.0));
   CHECK(scalar.reflection.as_measured(wi, wo)[2] == doctest::Approx(5.0));
-  const mbsdf_material rgb = parsed(magic + block("MBSDF_DATA_REFLECTION=", 1, 2, 3));
+  const mbsdf_material rgb = read_text(magic + block("MBSDF_DATA_REFLECTION=", 1, 2, 3));
   CHECK(rgb.reflection.channels() == 3);
   CHECK((rgb.reflection.as_measured(wi, wo) - gonio::rgb(15, 16, 17)).abs().maxCoeff() < 1e-9);
 }
 
-TEST_CASE("MBSDF: what is said of a material, and transmission is passed over") {
+TEST_CASE("MBSDF: metadata is read, transmission is skipped") {
   const std::string said = "name=\"red \\\"car\\\" paint\\\\2\"\nnotes=\"two\\nlines\"\nno entry\nempty=\"\"\n";
   const mbsdf_material both =
-      parsed(magic + said + block("MBSDF_DATA_REFLECTION=", 0, 2, 3) + block("MBSDF_DATA_TRANSMISSION=", 0, 2, 4));
+      read_text(magic + said + block("MBSDF_DATA_REFLECTION=", 0, 2, 3) + block("MBSDF_DATA_TRANSMISSION=", 0, 2, 4));
   CHECK(both.has_transmission);
   CHECK(both.reflection.values().size() == 12);
   CHECK(both.metadata.at("name") == "red \"car\" paint\\2");
@@ -67,7 +67,7 @@ TEST_CASE("MBSDF: what is said of a material, and transmission is passed over") 
   CHECK(both.metadata.size() == 3);
 }
 
-TEST_CASE("MBSDF: what was written is read again, byte for byte") {
+TEST_CASE("MBSDF: a file is read and written again byte for byte") {
   const scratch::folder here;
   const gonio::model::ggx rough{.alpha = 0.4, .f0 = gonio::rgb(0.9, 0.6, 0.3)};
   const gonio::io::mbsdf_metadata metadata{{"name", "gold \"rough\"\n"}, {"path", "a\\b"}};
@@ -81,14 +81,14 @@ TEST_CASE("MBSDF: what was written is read again, byte for byte") {
   CHECK(here.entries() == 2);
 }
 
-TEST_CASE("MBSDF: keys must be words, and letters that are not ASCII are not written") {
+TEST_CASE("MBSDF: keys must be words, characters outside ASCII are replaced") {
   mbsdf_material material{{{1, 1}, {0.5f}}, {{"two words", "x"}}};
   check_refused([&] { return gonio::io::write_mbsdf(material); }, {"two words"});
   material.metadata = {{"name", "gr\xC3\xBCn\t ~\x7F"}};
   CHECK(read_mbsdf(gonio::io::write_mbsdf(material), "t").metadata.at("name") == "gr??n? ~?");
 }
 
-TEST_CASE("MBSDF: what is no such file is refused") {
+TEST_CASE("MBSDF: bad files are refused") {
   scratch::check_refuses_non_files([](const auto& path) { return gonio::io::read_mbsdf(path); });
   const std::string good = magic + block("MBSDF_DATA=", 0, 2, 3);
   check_mbsdf_refused("file format error " + good, {"NVIDIA ARC MBSDF V1"});
@@ -111,7 +111,7 @@ TEST_CASE("MBSDF: what is no such file is refused") {
   check_mbsdf_refused(nan, {"value 11", "not finite"});
 }
 
-TEST_CASE("MBSDF: damaged files are refused or read, and crash nothing") {
+TEST_CASE("MBSDF: damaged files are read or refused") {
   const std::string both =
       magic + "name=\"x\"\n" + block("MBSDF_DATA_REFLECTION=", 1, 2, 3) + block("MBSDF_DATA_TRANSMISSION=", 0, 2, 2);
   scratch::check_survives_damage(bytes_of(both), 3000,

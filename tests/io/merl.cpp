@@ -19,7 +19,7 @@ namespace {
 
 constexpr grid_extents small{5, 4, 6};
 
-/// A table whose values differ everywhere; some are negative.
+/// A table of distinct values, some of them negative.
 gonio::brdf_table numbered_table(const gonio::valid_cells& cells, float scale = 0.01f) {
   gonio::brdf_table table(cells);
   for (std::size_t i = 0; i < table.values().size(); ++i) table.values()[i] = scale * (static_cast<float>(i) - 7.3f);
@@ -45,7 +45,7 @@ void compress_file(const scratch::fs::path& from, const scratch::fs::path& to) {
 }  // namespace
 
 TEST_CASE("values, planes and scales are MERL's") {
-  // A plane a channel, phi_d fastest: the value of a cell says where it stood.
+  // A plane for each channel, phi_d fastest: each value is its index in the file.
   std::vector<double> values(3 * 5 * 4 * 6);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i);
   const auto table = read_merl(merl_bytes({5, 4, 6}, values), "x");
@@ -60,7 +60,7 @@ TEST_CASE("values, planes and scales are MERL's") {
   }
 }
 
-TEST_CASE("a written table reads back equal, and is then written in the same bytes") {
+TEST_CASE("a written table is read back equal and written again with the same bytes") {
   const scratch::folder here;
   CHECK(rc::check("merl round trip", [&] {
     const auto extent = [] { return *rc::gen::inRange(1, 9); };
@@ -151,7 +151,7 @@ TEST_CASE("the convention is inferred from the marks") {
   CHECK(infer_convention({30, 30, 60}, [](std::size_t linear) { return linear % 2 == 0; }) == fallback);
 }
 
-TEST_CASE("a mark on a cell that is on the horizon up to rounding does not hide the convention") {
+TEST_CASE("a mark on a cell at the horizon, up to rounding, does not hide the convention") {
   // theta_h = 22.5, theta_d = 67.5, phi_d = 0 degrees: wi is on the horizon, whichever way that rounds.
   const gonio::grid corner({10, 20, 20}, cell_anchor::lower_corner);
   const std::size_t linear = corner.linear({5, 15, 0});
@@ -174,7 +174,7 @@ TEST_CASE("a convention can be forced, and cells shared") {
   const merl_options forced{table_convention{cell_anchor::lower_corner, 0.1}, {}};
   CHECK(read_merl(bytes, "x", forced).cells() == corner);
   CHECK(read_merl(bytes, "x").cells() == gonio::valid_cells(gonio::grid(small)));
-  // Sharing changes nothing but memory: cells of another convention are not taken.
+  // Sharing only saves memory: cells of another convention are not used.
   CHECK(read_merl(bytes, "x", {{}, corner}).cells() == gonio::valid_cells(gonio::grid(small)));
   CHECK(read_merl(bytes, "x", {forced.convention, corner}).cells() == corner);
 }
@@ -244,7 +244,7 @@ TEST_CASE("damaged MERL files are read or refused") {
                                  [](auto bytes) { return gonio::io::read_merl_any(bytes, "x"); });
 }
 
-TEST_CASE("compressed and plain files are told apart by content") {
+TEST_CASE("compressed and plain files are distinguished by their content") {
   const scratch::folder here;
   const auto table = numbered_table(gonio::valid_cells(gonio::grid(small)));
   write_merl(here / "plain.gz", table);
@@ -266,7 +266,7 @@ TEST_CASE("compressed and plain files are told apart by content") {
   check_refused(compressed(""), {"changed.gz: ", "has 0 bytes", "at least 12"});
 }
 
-TEST_CASE("the measured materials are at lower corners, cosines above 0.02") {
+TEST_CASE("a measured material has values at lower corners and cosines above 0.02") {
   const scratch::fs::path path = GONIO_SHARED_DATA "/rgl-measured/paper_blue.binary.gz";
   if (!scratch::fs::exists(path)) {
     MESSAGE("skipped: " << path.string() << " is not here");
@@ -284,7 +284,7 @@ TEST_CASE("the measured materials are at lower corners, cosines above 0.02") {
   CHECK(std::ranges::equal(again.values(), table.values()));
 }
 
-TEST_CASE("the cells that MERL's own files fill are read at centres") {
+TEST_CASE("MERL's own files have values at the cells' centres") {
   const scratch::fs::path path = GONIO_SHARED_DATA "/merl_valid_mask.npy";
   if (!scratch::fs::exists(path)) {
     MESSAGE("skipped: " << path.string() << " is not here");

@@ -20,7 +20,7 @@ std::vector<std::string> names_in(const scratch::folder& here) {
 
 }  // namespace
 
-TEST_CASE("named files: sorted by name, in small letters or capitals, the rest of the folder is ignored") {
+TEST_CASE("named files: files are sorted by name, extensions may have any case, other files are ignored") {
   const scratch::folder here;
   for (const char* name : {"steel.binary", "Brass.BINARY", "a.b.Binary.gz", "notes.txt", ".binary", "binary"})
     scratch::put(here / name, std::string("x"));
@@ -29,7 +29,7 @@ TEST_CASE("named files: sorted by name, in small letters or capitals, the rest o
   CHECK(files.front().path == here / "Brass.BINARY");
 }
 
-TEST_CASE("named files: a folder without any, two of one name, and what is no folder are refused") {
+TEST_CASE("named files: a folder without such files, equal names and a missing folder are refused") {
   const scratch::folder here;
   scratch::put(here / "notes.txt", std::string("x"));
   scratch::check_refused([&] { return names_in(here); },

@@ -22,7 +22,7 @@ const gonio::directional_light& light_of(const gonio::capture::near_field_setup&
   return std::get<gonio::directional_light>(setup.light);
 }
 
-/// The smallest file with a line changed to another.
+/// Returns the smallest file with a line replaced by another.
 std::string with(const std::string& line, const std::string& other) {
   std::string text = smallest;
   const std::size_t at = text.find(line);
@@ -60,7 +60,7 @@ TEST_CASE("every entry is read") {
   CHECK(setup.block == 4);
 }
 
-TEST_CASE("what is left out is what the documentation says") {
+TEST_CASE("missing entries have the documented defaults") {
   const auto setup = read_near_field_setup(smallest, "first.txt");
   CHECK(setup.camera.intrinsics().focal_length_y == 10.0);
   CHECK(setup.camera.intrinsics().principal_x == 4.0);
@@ -83,7 +83,7 @@ TEST_CASE("a rotation is the camera's axes, row by row") {
   CHECK(setup.camera.ray_through(4.0, 3.0).towards == gonio::direction(0.0, 0.0, -1.0));
 }
 
-TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
+TEST_CASE("a bad set-up is refused; the error names the file and, if possible, the line") {
   const auto refused = [](const std::string& text, std::initializer_list<std::string> words) {
     scratch::check_refused([&] { return read_near_field_setup(text, "first.txt"); }, words);
     scratch::check_refused([&] { return read_near_field_setup(text, "first.txt"); }, {"first.txt"});
@@ -128,7 +128,7 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
   refused(smallest + "block 0\n", {"line 7", "0 is not a whole number from 1"});
 }
 
-TEST_CASE("a lens, a lamp and a white reference are read as those of a sphere") {
+TEST_CASE("a lens, a lamp and a white reference are read as for a sphere") {
   const auto setup = read_near_field_setup(
       with("light 0 0 2",
            "lamp 3 4 5\nintensity 2\nlamp_radius 0.25\ndistortion -0.2 0.05 0.001 0.002\nwhite_reflectance 0.98\n"
@@ -145,7 +145,7 @@ TEST_CASE("a lens, a lamp and a white reference are read as those of a sphere") 
   CHECK(wide.camera.intrinsics().focal_length_x == doctest::Approx(4.0));
 }
 
-TEST_CASE("with a calibration a set-up says neither size nor lens") {
+TEST_CASE("with a calibration, a set-up must state neither size nor lens") {
   const gonio::io::camera_calibration calibration{gonio::camera_intrinsics::square(40, 0.5), {.k1 = -0.1}};
   const std::string bare = "position 0 1 1\ntarget 0 0 0\nlight 0 0 2\nregion 1\n";
   const auto setup = read_near_field_setup(bare, "first.txt", calibration);
@@ -155,7 +155,7 @@ TEST_CASE("with a calibration a set-up says neither size nor lens") {
                          {"line 1", "'size'", "the calibration already states it"});
 }
 
-TEST_CASE("what is missing is named") {
+TEST_CASE("a missing entry is named") {
   const auto missing = [](const std::string& line, const std::string& name) {
     scratch::check_refused([&] { return read_near_field_setup(with(line, ""), "first.txt"); },
                            {"first.txt: " + name + " is missing"});
@@ -168,7 +168,7 @@ TEST_CASE("what is missing is named") {
   missing("region 1", "'region' or 'window'");
 }
 
-TEST_CASE("files are read, and what is no file or damaged is refused") {
+TEST_CASE("set-up files are read, unreadable ones are refused") {
   const scratch::folder here;
   scratch::put(here / "first.txt", complete);
   CHECK(gonio::io::read_near_field_setup(here / "first.txt").block == 4);

@@ -50,7 +50,7 @@ void check_round_trip(const scratch::fs::path& path) {
     write_npy(path, array);
     const auto again = read_npy<T, Rank>(path);
     RC_ASSERT(again.shape() == array.shape());
-    // Byte by byte, for the NaNs.
+    // Compare bytes: NaN differs from itself.
     const auto bytes_in = [](const auto& a) { return std::as_bytes(std::span(a.data(), a.size())); };
     RC_ASSERT(std::ranges::equal(bytes_in(again), bytes_in(array)));
     const std::string bytes = scratch::get(path);
@@ -60,7 +60,7 @@ void check_round_trip(const scratch::fs::path& path) {
   }));
 }
 
-TEST_CASE("an array has numpy's own bytes") {
+TEST_CASE("an array is written with numpy's bytes") {
   const scratch::folder here;
   write_npy(here / "a", xt::xtensor<double, 2>({{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}));
   // numpy.save of the same array.
@@ -79,7 +79,7 @@ TEST_CASE("an array has numpy's own bytes") {
     MESSAGE("skipped: " << shared.string() << " is not here");
 }
 
-TEST_CASE("arrays come back") {
+TEST_CASE("arrays are read back") {
   const scratch::folder here;
   check_round_trip<double, 0>(here / "a");
   check_round_trip<float, 1>(here / "a");
@@ -87,7 +87,7 @@ TEST_CASE("arrays come back") {
   check_round_trip<float, 4>(here / "a");
 }
 
-TEST_CASE("the other type is converted") {
+TEST_CASE("elements of the other type are converted") {
   const scratch::folder here;
   write_npy(here / "f", xt::xtensor<float, 1>({0.1f, -2.0f}));
   CHECK(same(read_npy<double, 1>(here / "f"), xt::xtensor<double, 1>({double{0.1f}, -2.0})));

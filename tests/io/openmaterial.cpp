@@ -22,7 +22,7 @@ std::string file_of(const std::string& rows) {
          rows + "\n]}}\n";
 }
 
-gonio::sample_set parsed(const std::string& rows) {
+gonio::sample_set read_text(const std::string& rows) {
   return read_openmaterial(file_of(rows), "asphalt_brdf.xompt").colours();
 }
 
@@ -32,7 +32,7 @@ void check_xompt_refused(const std::string& text, std::initializer_list<std::str
   check_refused([&] { return read_openmaterial(text, "asphalt_brdf.xompt"); }, words);
 }
 
-/// The same value everywhere, which is below zero.
+/// A BRDF of -0.5 everywhere.
 struct negative_brdf {
   rgb operator()(const gonio::direction&, const gonio::direction&) const noexcept { return rgb::Constant(-0.5); }
 };
@@ -40,7 +40,7 @@ struct negative_brdf {
 }  // namespace
 
 TEST_CASE("OpenMATERIAL: rows of one wavelength are grey samples of light and viewer") {
-  const auto samples = parsed("[9.05e-07, 0.5, 0.25, 3.141593, 0.02],\n[9.05e-07, 0.5, 0.75, 1.570796, 0.03]");
+  const auto samples = read_text("[9.05e-07, 0.5, 0.25, 3.141593, 0.02],\n[9.05e-07, 0.5, 0.75, 1.570796, 0.03]");
   REQUIRE(samples.size() == 2);
   CHECK(gonio::polar_angle(samples[0].directions.pair().wi) == doctest::Approx(0.5));
   CHECK(gonio::polar_angle(samples[0].directions.pair().wo) == doctest::Approx(0.25));
@@ -50,7 +50,7 @@ TEST_CASE("OpenMATERIAL: rows of one wavelength are grey samples of light and vi
   CHECK((samples[1].value == 0.03).all());
 }
 
-TEST_CASE("OpenMATERIAL: the receiver's solid angle is that of its cone") {
+TEST_CASE("OpenMATERIAL: the receiver's solid angle gives its cone") {
   const auto file_with = [](const std::string& angles) {
     return "{\"brdf\": {\"wavelengths\": [9e-7], \"receiverSolidAngles\": " + angles +
            ", \"lookupTable\": [[9e-7, 0.5, 0.25, 3, 0.02]]}}";
@@ -63,8 +63,8 @@ TEST_CASE("OpenMATERIAL: the receiver's solid angle is that of its cone") {
   check_xompt_refused(file_with("[{\"solidAngle\": 3}]"), {"line 1", "the receiver has a solid angle of 3"});
 }
 
-TEST_CASE("OpenMATERIAL: a direction is one sample; rows with null and at the horizon are none") {
-  const auto samples = parsed(
+TEST_CASE("OpenMATERIAL: a pair of directions is one sample; rows with null or at the horizon are skipped") {
+  const auto samples = read_text(
       "[9e-7, 0, 0.25, 0, 0.1], [9e-7, 0, 0.25, 1.5, 0.3], [9e-7, 0.4, 0.25, 0, 1], [9e-7, 0.4, 0.25, 6.283185, 3],"
       "[9e-7, 0.4, 0.25, 1, null], [null, 0.4, 0.2, 1, 5], [9e-7, 1.570796, 0.25, 1, 7], [9e-7, 0.4, 1.570796, 1, 7]");
   REQUIRE(samples.size() == 2);
@@ -72,8 +72,8 @@ TEST_CASE("OpenMATERIAL: a direction is one sample; rows with null and at the ho
   CHECK(samples[1].value[0] == doctest::Approx(2.0));
 }
 
-TEST_CASE("OpenMATERIAL: limits that were rounded up are met") {
-  const auto samples = parsed(
+TEST_CASE("OpenMATERIAL: limits that were rounded up are accepted") {
+  const auto samples = read_text(
       "[9e-7, 0.4, 0.2, 6.2832, 1], [9e-7, 1.5708, 0.2, 1, 7], [9e-7, 0.4, 1.5708, 1, 7], [17.16e-3, 0.4, 0.2, 0, "
       "null]");
   REQUIRE(samples.size() == 1);
@@ -81,11 +81,11 @@ TEST_CASE("OpenMATERIAL: limits that were rounded up are met") {
   CHECK(read_openmaterial(file_of("[17.16e-3, 0.4, 0.2, 0, 1]"), "x").channels().name(0) == "17160000 nm");
 }
 
-TEST_CASE("OpenMATERIAL: wavelengths in metres make a colour, in whatever order") {
-  const auto flat = parsed("[4.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.3], [6.5e-7, 0.4, 0.2, 0, 0.3]");
+TEST_CASE("OpenMATERIAL: wavelengths in metres make a colour, in any order") {
+  const auto flat = read_text("[4.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.3], [6.5e-7, 0.4, 0.2, 0, 0.3]");
   REQUIRE(flat.size() == 1);
   CHECK((flat[0].value - 0.3).abs().maxCoeff() < 1e-6);
-  const auto red = parsed("[6.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.1], [4.5e-7, 0.4, 0.2, 0, 0.1]");
+  const auto red = read_text("[6.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.1], [4.5e-7, 0.4, 0.2, 0, 0.1]");
   CHECK(red[0].value[0] > 1.5 * red[0].value[2]);
   const auto spectra =
       gonio::io::read_openmaterial(file_of("[6.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.1]"), "red_brdf.xompt");
@@ -94,7 +94,7 @@ TEST_CASE("OpenMATERIAL: wavelengths in metres make a colour, in whatever order"
   CHECK(spectra.values(0)[1] == 0.3);
 }
 
-TEST_CASE("OpenMATERIAL: a table that is written has the colours of its material") {
+TEST_CASE("OpenMATERIAL: a written table has the material's colours") {
   const gonio::model::ggx gold{.alpha = 0.5, .f0 = rgb(0.9, 0.6, 0.3)};
   const std::string text = write_openmaterial(gold, {.name = "gold \"leaf\""}, {6, 8});
   CHECK(gonio::io::looks_like_openmaterial(text.substr(0, 1000)));
@@ -108,7 +108,7 @@ TEST_CASE("OpenMATERIAL: a table that is written has the colours of its material
     const auto pair = each.directions.pair();
     worst = std::max(worst, (each.value / gold(pair.wi, pair.wo) - 1.0).abs().maxCoeff());
   }
-  CHECK(worst < 0.02);  // renderers' spectra are linear between wavelengths, ours of samples are trapezoids
+  CHECK(worst < 0.02);  // renderers interpolate spectra linearly, our samples use trapezoids
   CHECK(write_openmaterial(gold, {.name = "gold \"leaf\""}, {6, 8}, gonio::thread_count{3}) == text);
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("OpenMATERIAL: identifiers follow from name and numbers") {
   CHECK(uuid(write_openmaterial(white, {.name = "a"}, {2, 2})) != one);
 }
 
-TEST_CASE("OpenMATERIAL: the schema has no negative values, and names end as materials refer to them") {
+TEST_CASE("OpenMATERIAL: negative values become 0, and a file's name must end in _brdf.xompt") {
   const std::string text = write_openmaterial(negative_brdf{}, {}, {1, 1});
   CHECK(text.find(", -") == std::string::npos);
   CHECK(text.find(", 0]") != std::string::npos);
@@ -142,7 +142,7 @@ TEST_CASE("OpenMATERIAL: the schema has no negative values, and names end as mat
   check_refused([&] { return write_openmaterial(grey, {}, {1, 0}); }, {"1 to 120"});
 }
 
-TEST_CASE("OpenMATERIAL: what is no such file is refused by its line") {
+TEST_CASE("OpenMATERIAL: bad files are refused") {
   scratch::check_refuses_non_files([](const auto& path) { return gonio::io::read_openmaterial(path); });
   check_xompt_refused(file_of("[9e-7, 0.4, 0.2, 0]"), {"line 4", "4 numbers, expected 5"});
   check_xompt_refused(file_of("[9e-7, 0.4, 0.2, 0, 1, 2]"), {"more than 5"});

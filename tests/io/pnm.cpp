@@ -11,21 +11,21 @@ using scratch::check_refused;
 
 namespace {
 
-stored_codes parsed(const std::string& text) { return read_pnm(bytes_of(text), "some.ppm"); }
+stored_codes read_text(const std::string& text) { return read_pnm(bytes_of(text), "some.ppm"); }
 
 }  // namespace
 
-TEST_CASE("Netpbm: known bytes are known counts") {
-  const stored_codes colour = parsed("P6 2 1 255\n\x01\x02\x03\xFF\x05\x06");
+TEST_CASE("Netpbm: known bytes give known counts") {
+  const stored_codes colour = read_text("P6 2 1 255\n\x01\x02\x03\xFF\x05\x06");
   CHECK((colour.rows == 1 && colour.columns == 2 && colour.largest == 255));
   CHECK(colour.values == std::vector<std::uint16_t>{1, 2, 3, 255, 5, 6});
   // 16 bits have the high byte first; grey becomes three equal channels; comments may stand between numbers.
-  const stored_codes grey = parsed("P5\n# by hand\n1 2\n#again\n4095\n\x0F\xFF\x01\x02");
+  const stored_codes grey = read_text("P5\n# by hand\n1 2\n#again\n4095\n\x0F\xFF\x01\x02");
   CHECK((grey.rows == 2 && grey.columns == 1 && grey.largest == 4095));
   CHECK(grey.values == std::vector<std::uint16_t>{4095, 4095, 4095, 258, 258, 258});
 }
 
-TEST_CASE("Netpbm: what was written is read") {
+TEST_CASE("Netpbm: a written file is read back") {
   const scratch::folder here;
   CHECK(rc::check("counts of any size and depth come back", [&] {
     stored_codes codes{*rc::gen::inRange<std::size_t>(1, 6), *rc::gen::inRange<std::size_t>(1, 6), 0, {}};
@@ -41,7 +41,7 @@ TEST_CASE("Netpbm: what was written is read") {
 
 TEST_CASE("Netpbm: bad files are refused") {
   const auto refuses = [](const std::string& text, const std::string& words) {
-    check_refused([&] { return parsed(text); }, {"some.ppm", words});
+    check_refused([&] { return read_text(text); }, {"some.ppm", words});
   };
   refuses("P3 1 1 255\n1 2 3", "not a binary PPM or PGM");
   refuses("P6 1", "truncated");

@@ -31,7 +31,7 @@ std::string refusal(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-TEST_CASE("a prior comes back with the errors of its quantisation and no others") {
+TEST_CASE("a prior is read back with only the errors of quantisation") {
   const auto prior = small_prior(), back = io::read_prior(io::write_prior(prior), "x");
   CHECK(back.cells() == prior.cells());
   CHECK(back.names() == prior.names());
@@ -50,13 +50,13 @@ TEST_CASE("a prior comes back with the errors of its quantisation and no others"
   }
 }
 
-TEST_CASE("a prior keeps the cosine weight of its metric; the bytes of one with the product are those of before") {
+TEST_CASE("a prior keeps the cosine weighting of its metric; the product is the default") {
   const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5);
   const auto metric = gonio::log_relative::to_median_of(set);
-  const auto encode = [&](gonio::cosine_weighting weighting) {
+  const auto written = [&](gonio::cosine_weighting weighting) {
     return io::write_prior(gonio::learn_pca(set, metric.weighted_by(weighting), 8));
   };
-  const auto product = encode(gonio::cosine_weighting::product), larger = encode(gonio::cosine_weighting::larger);
+  const auto product = written(gonio::cosine_weighting::product), larger = written(gonio::cosine_weighting::larger);
   CHECK(product == io::write_prior(gonio::learn_pca(set, metric, 8)));
   CHECK(io::read_prior(product, "x").metric().weighting() == gonio::cosine_weighting::product);
   const auto back = io::read_prior(larger, "x");
@@ -65,8 +65,7 @@ TEST_CASE("a prior keeps the cosine weight of its metric; the bytes of one with 
   CHECK(back.metric().cosine_weight(at.cosine) == std::max(at.cosine.i, at.cosine.o));
 }
 
-TEST_CASE(
-    "wavelengths come back, in files that older programs refuse by their version; those of colours stay as they were") {
+TEST_CASE("wavelengths are read back; older programs refuse such files by their version, but read priors in RGB") {
   const std::vector<double> wavelengths{405.0, 532.0, 633.0, 780.0, 1064.0};
   const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5);
   const auto prior = gonio::learn_streamed_pca(at_wavelengths(set, wavelengths), {.components = 8}).prior;
@@ -87,13 +86,13 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("wavelengths that a file cannot have are refused") {
+TEST_CASE("impossible wavelengths are refused") {
   const auto refusal_of = [](std::uint32_t count, double second) {
     io::byte_writer payload;
     for (int axis = 0; axis < 3; ++axis) payload.write(std::uint32_t{4});
     payload.write(std::uint32_t{4});  // wavelengths
     payload.write(0.0);
-    payload.write(std::uint32_t{1});  // a component of a material
+    payload.write(std::uint32_t{1});  // one component of one material
     payload.write(std::uint32_t{1});
     payload.write(count);
     payload.write(500.0);
@@ -108,7 +107,7 @@ TEST_CASE("wavelengths that a file cannot have are refused") {
   CHECK(refusal_of(2, std::nan("")).find("wavelength 2 of a spectrum is not above") != std::string::npos);
 }
 
-TEST_CASE("what was read is written with the same bytes") {
+TEST_CASE("a prior that is read and written again keeps its codes") {
   const auto once = io::write_prior(small_prior());
   const auto back = io::read_prior(once, "x");
   const auto twice = io::write_prior(back);
@@ -117,7 +116,7 @@ TEST_CASE("what was read is written with the same bytes") {
   CHECK(io::read_prior(twice, "x").mean() == back.mean());
 }
 
-TEST_CASE("the quantised column knows constants and extremes") {
+TEST_CASE("a quantised column keeps constants and extremes") {
   const std::vector<float> constant(5, 3.5f), two{-1.0f, 7.0f};
   const auto flat = io::quantise<std::uint8_t>(std::span<const float>(constant));
   CHECK(io::dequantise(flat, 3) == 3.5f);
@@ -131,7 +130,7 @@ TEST_CASE("the quantised column knows constants and extremes") {
   CHECK(in.left() == 0);
 }
 
-TEST_CASE("damaged priors are refused with what is wrong") {
+TEST_CASE("damaged priors are refused; the error names the fault") {
   const auto whole = io::write_prior(small_prior());
   CHECK(refusal({}).find("not a gonio prior") != std::string::npos);
   CHECK(refusal(std::span(whole).first(5)).find("not a gonio prior") != std::string::npos);
@@ -151,15 +150,15 @@ TEST_CASE("damaged priors are refused with what is wrong") {
   CHECK(refusal(size).find("cannot fit in") != std::string::npos);
 }
 
-TEST_CASE("any flipped byte is noticed, or is padding of the compressed stream") {
+TEST_CASE("a flipped byte is detected, or is padding of the compressed stream") {
   const auto whole = io::write_prior(small_prior());
   std::mt19937 generator(3);
   int noticed = 0;
   for (int i = 0; i < 200; ++i) {
     auto damaged = whole;
-    const std::size_t place = generator() % damaged.size();
-    damaged[place] ^= static_cast<std::byte>(1 + generator() % 255);
-    CAPTURE(place);
+    const std::size_t position = generator() % damaged.size();
+    damaged[position] ^= static_cast<std::byte>(1 + generator() % 255);
+    CAPTURE(position);
     // The last bits of a deflated stream are not read: a prior that is not refused is the one that was written.
     if (refusal(damaged).empty())
       CHECK(io::write_prior(io::read_prior(damaged, "x")) == io::write_prior(io::read_prior(whole, "x")));
@@ -169,9 +168,9 @@ TEST_CASE("any flipped byte is noticed, or is padding of the compressed stream")
   CHECK(noticed >= 198);
 }
 
-TEST_CASE("a payload with a right checksum but impossible contents is refused") {
+TEST_CASE("impossible contents with a correct checksum are refused") {
   // A prior over a grid with a wrong count, as a buggy writer might make it.
-  const auto encode = [](auto&& fill) {
+  const auto written = [](auto&& fill) {
     io::byte_writer payload;
     fill(payload);
     return io::write_checked(io::checked_file_kind{"gonio-pca", 1, "prior"}, payload.bytes());
@@ -186,22 +185,22 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
     out.write(1.0);
     for (int i = 0; i < padding; ++i) out.write(std::uint64_t{0});
   };
-  CHECK(refusal(encode([&](auto& out) { header(out, 0, 0, 3); })).find("extent") != std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 0xffffffff, 0, 3); })).find("extent") != std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 4000, 0, 3); })).find("more cells") != std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 4, 9, 3); })).find("wavelengths are 9, expected 0 to 7") !=
+  CHECK(refusal(written([&](auto& out) { header(out, 0, 0, 3); })).find("extent") != std::string::npos);
+  CHECK(refusal(written([&](auto& out) { header(out, 0xffffffff, 0, 3); })).find("extent") != std::string::npos);
+  CHECK(refusal(written([&](auto& out) { header(out, 4000, 0, 3); })).find("more cells") != std::string::npos);
+  CHECK(refusal(written([&](auto& out) { header(out, 4, 9, 3); })).find("wavelengths are 9, expected 0 to 7") !=
         std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 0); })).find("0 components of 2 materials, expected") !=
+  CHECK(refusal(written([&](auto& out) { header(out, 4, 0, 0); })).find("0 components of 2 materials, expected") !=
         std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 700); })).find("700 components of 2 materials, expected") !=
+  CHECK(refusal(written([&](auto& out) { header(out, 4, 0, 700); })).find("700 components of 2 materials, expected") !=
         std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3, 30); })).find("truncated") != std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3, 1000); })).find("bytes follow") != std::string::npos);
+  CHECK(refusal(written([&](auto& out) { header(out, 4, 0, 3, 30); })).find("truncated") != std::string::npos);
+  CHECK(refusal(written([&](auto& out) { header(out, 4, 0, 3, 1000); })).find("bytes follow") != std::string::npos);
   for (const std::uint32_t extent : {0u, 4u, 0xffffffffu})
-    CHECK(refusal(encode([&](auto& out) { header(out, extent, 0, 3); })).starts_with("x.prior: "));
+    CHECK(refusal(written([&](auto& out) { header(out, extent, 0, 3); })).starts_with("x.prior: "));
 }
 
-TEST_CASE("files: written whole, read back, recognised, and refused where they are no file") {
+TEST_CASE("files of priors are written, recognised and read back; unreadable ones are refused") {
   const scratch::folder folder;
   const auto path = folder / "small.prior";
   io::write_prior(path, small_prior());
@@ -214,7 +213,7 @@ TEST_CASE("files: written whole, read back, recognised, and refused where they a
   CHECK_THROWS_AS(io::write_prior(folder / "no-such-folder" / "x.prior", small_prior()), gonio::error);
 }
 
-TEST_CASE("the prior that ships") {
+TEST_CASE("the shipped prior is read") {
   const auto prior = io::read_prior(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior");
   CHECK(prior.size() == 100);
   CHECK(prior.names().size() == 137);

@@ -25,7 +25,7 @@ std::vector<std::byte> payload_of(const gonio::log_relative_pca& prior) {
 
 }  // namespace
 
-TEST_CASE("the payload of a prior's file is what follows its first 25 bytes, inflated") {
+TEST_CASE("the payload of a prior's file is its bytes after the first 25, inflated") {
   const auto prior = small_prior();
   const auto payload = payload_of(prior), file = io::write_prior(prior);
   CHECK(io::decompress_bytes(std::span(file).subspan(25), payload.size(), "x") == payload);

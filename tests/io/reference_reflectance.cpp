@@ -42,7 +42,7 @@ TEST_CASE("reference reflectance: any dialect, and angles and factors with their
   CHECK(blanks.at(pair_at(0, 30)).y() == doctest::Approx(0.85));
 }
 
-TEST_CASE("reference reflectance: the example is what its comment says") {
+TEST_CASE("reference reflectance: the example file follows its formula") {
   const auto table = read_reference_reflectance(std::string(GONIO_SOURCE_DIR) + "/examples/data/white-by-formula.csv");
   for (int theta = 0; theta <= 90; theta += 10) {
     const double expected = 0.99 * (1.0 - 0.15 * std::pow(std::sin(gonio::radians(theta)), 4));

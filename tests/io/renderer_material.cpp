@@ -35,7 +35,7 @@ analytic_brdf metal() {
 
 }  // namespace
 
-TEST_CASE("a rough lobe over a diffuse one as a material of pbrt") {
+TEST_CASE("pbrt: a rough lobe over a diffuse one") {
   CHECK(gonio::io::pbrt_material(paint("ggx")) ==
         "Material \"coateddiffuse\"\n"
         "  \"rgb reflectance\" [ " +
@@ -53,7 +53,7 @@ TEST_CASE("a rough lobe over a diffuse one as a material of pbrt") {
         "  \"bool remaproughness\" false\n");
 }
 
-TEST_CASE("a base has the albedo that is seen below a coat that lets no light stay") {
+TEST_CASE("a base below a coat without absorption is seen with the given albedo") {
   using gonio::io::detail::base_below_coat;
   const rgb seen(0.5, 0.25, 0.125);
   CHECK((base_below_coat(seen, 1.0) - seen).abs().maxCoeff() < 1e-12);
@@ -63,7 +63,7 @@ TEST_CASE("a base has the albedo that is seen below a coat that lets no light st
   CHECK((base_below_coat(rgb(1.0, 0.99, 0.0), 2.0) == rgb(1.0, 1.0, 0.0)).all());
 }
 
-TEST_CASE("the same of Mitsuba: the sum of both lobes") {
+TEST_CASE("Mitsuba: the sum of both lobes") {
   analytic_brdf bright({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
                         {lobe_kind::of<gonio::model::torrance_sparrow_shape>(), {2.0, 1.0, 0.5}, {0.25, 0.04}}});
   const auto interface = gonio::io::detail::conductor_like_schlick(0.04);
@@ -93,7 +93,7 @@ TEST_CASE("the same of Mitsuba: the sum of both lobes") {
             "</bsdf>\n");
 }
 
-TEST_CASE("a conductor reflects f0 at normal incidence, and nearly as Schlick says elsewhere") {
+TEST_CASE("a conductor reflects f0 at normal incidence and nearly follows Schlick elsewhere") {
   for (const double f0 : {0.02, 0.04, 0.1, 0.3, 0.6, 0.9}) {
     const auto found = gonio::io::detail::conductor_like_schlick(f0);
     CHECK(gonio::model::fresnel_conductor(1.0, found.index, found.extinction) == doctest::Approx(f0).epsilon(1e-6));
@@ -105,14 +105,14 @@ TEST_CASE("a conductor reflects f0 at normal incidence, and nearly as Schlick sa
                      1.0) < most);
     }
   }
-  // What is fitted may be no reflectance at all.
+  // A fitted f0 may be outside 0 to 1.
   for (const double f0 : {-0.1, 0.0, 1.0, 3.0}) {
     const auto found = gonio::io::detail::conductor_like_schlick(f0);
     CHECK(std::isfinite(found.index + found.extinction));
   }
 }
 
-TEST_CASE("renderers without colours above 1 get the highlight's brightness in its reflectance at normal incidence") {
+TEST_CASE("highlight colours above 1 become a higher reflectance at normal incidence") {
   const analytic_brdf brown({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
                              {lobe_kind::of<gonio::model::ggx_shape>(), {5.0, 2.5, 1.25}, {0.25, 0.05}}});
   const std::string text = gonio::io::materialx_material(brown);
@@ -121,14 +121,14 @@ TEST_CASE("renderers without colours above 1 get the highlight's brightness in i
   CHECK(gonio::io::pbrt_material(brown).find("\"float eta\" [ 3 ]") != std::string::npos);
 }
 
-TEST_CASE("a base that is not seen beside the highlight makes no dielectric") {
+TEST_CASE("a base that is negligible beside the highlight gives a metal") {
   const analytic_brdf gold({{lobe_kind::of<gonio::model::lambert_shape>(), {0.003, 0.001, 0.0}, {}},
                             {lobe_kind::of<gonio::model::ggx_shape>(), {1.0, 0.75, 0.5}, {0.25, 0.75}}});
   CHECK(read_json(gonio::io::gltf_material(gold))["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] == 1);
   CHECK(gonio::io::materialx_material(gold).find("\"base_metalness\" type=\"float\" value=\"1\"") != std::string::npos);
 }
 
-TEST_CASE("a highlight that no dielectric has is that of a metal, beside a base") {
+TEST_CASE("a highlight brighter than any dielectric's gives a metal mixed with the base") {
   const analytic_brdf orange({{lobe_kind::of<gonio::model::lambert_shape>(), {0.25, 0.375, 0.375}, {}},
                               {lobe_kind::of<gonio::model::ggx_shape>(), {1.0, 0.75, 0.25}, {0.25, 0.5}}});
   // The highlight reflects 0.5, 0.375 and 0.125: as much as the base.
@@ -156,7 +156,7 @@ TEST_CASE("a highlight that no dielectric has is that of a metal, beside a base"
   CHECK(material["extensions"]["KHR_materials_ior"]["ior"] == 1);
 }
 
-TEST_CASE("the same of OpenPBR, in MaterialX") {
+TEST_CASE("OpenPBR in MaterialX: a rough lobe over a diffuse one") {
   CHECK(gonio::io::materialx_material(paint("ggx"), "red_paint") ==
         "<?xml version=\"1.0\"?>\n"
         "<materialx version=\"1.39\" colorspace=\"lin_rec709\">\n"
@@ -181,7 +181,7 @@ TEST_CASE("the same of OpenPBR, in MaterialX") {
                          gonio::error);
 }
 
-TEST_CASE("a material of glTF is that of a sphere whose triangles look outwards") {
+TEST_CASE("glTF: the material is on a sphere whose triangles face outwards") {
   const auto document = read_json(gonio::io::gltf_material(metal()));
   const std::string uri = document["buffers"][0]["uri"].get<std::string>(),
                     start = "data:application/octet-stream;base64,";
@@ -198,7 +198,7 @@ TEST_CASE("a material of glTF is that of a sphere whose triangles look outwards"
   REQUIRE(bytes.size() == offset + 2 * corners.size());
   std::memcpy(points.data(), bytes.data(), offset);
   std::memcpy(corners.data(), bytes.data() + offset, 2 * corners.size());
-  double volume = 0.0;  // of the tetrahedra to the centre
+  double volume = 0.0;  // of the tetrahedra with the centre
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     REQUIRE(std::max({corners[i], corners[i + 1], corners[i + 2]}) < points.cols());
     const Eigen::Vector3f a = points.col(corners[i]), b = points.col(corners[i + 1]), c = points.col(corners[i + 2]);
@@ -209,7 +209,7 @@ TEST_CASE("a material of glTF is that of a sphere whose triangles look outwards"
   CHECK((points.colwise().norm().array() - 1.0f).abs().maxCoeff() < 1e-6f);
 }
 
-TEST_CASE("the same of the Open Shading Language") {
+TEST_CASE("Open Shading Language: a rough lobe over a diffuse one") {
   CHECK(
       gonio::io::osl_shader(paint("ggx")) ==
       "shader gonio_material(color Diffuse = color(0.5, 0.25, 0.125),\n"
@@ -222,7 +222,7 @@ TEST_CASE("the same of the Open Shading Language") {
   CHECK_THROWS_WITH_AS(gonio::io::osl_shader(paint("torrance-sparrow")), doctest::Contains("Cycles"), gonio::error);
 }
 
-TEST_CASE("the same of glTF") {
+TEST_CASE("glTF: a metal, and a highlight colour above 1") {
   const std::string text = gonio::io::gltf_material(metal());
   CHECK(text.starts_with("{\n  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n  \"scene\": 0,\n"));
   CHECK(text.substr(text.find("  \"materials\"")) ==
@@ -236,7 +236,7 @@ TEST_CASE("the same of glTF") {
         "    }\n"
         "  ]\n"
         "}\n");
-  // A highlight brighter than all light: the factor is 1, the colour has the rest.
+  // A highlight colour above 1: the factor is 1, the colour has the rest.
   analytic_brdf bright({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
                         {lobe_kind::of<gonio::model::ggx_shape>(), {2.0, 1.0, 0.5}, {0.25, 1.0 / 9.0}}});
   const auto document = read_json(gonio::io::gltf_material(bright));
@@ -249,7 +249,7 @@ TEST_CASE("the same of glTF") {
   CHECK(material["extensions"]["KHR_materials_specular"]["specularColorFactor"][2] == 0.5);
 }
 
-TEST_CASE("models that renderers do not have are refused") {
+TEST_CASE("models that renderers lack are refused") {
   for (const auto material :
        {gonio::io::gltf_material, +[](const analytic_brdf& model) { return gonio::io::materialx_material(model); }})
     CHECK_THROWS_WITH_AS(material(paint("torrance-sparrow")), doctest::Contains("fit ggx instead"), gonio::error);
@@ -262,7 +262,7 @@ TEST_CASE("models that renderers do not have are refused") {
   CHECK_THROWS_WITH_AS(gonio::io::mitsuba_material(phong), doctest::Contains("not phong"), gonio::error);
 }
 
-TEST_CASE("a material is written as it is") {
+TEST_CASE("a material's text is written unchanged") {
   const scratch::folder folder;
   gonio::io::write_renderer_material(folder / "paint.xml", gonio::io::mitsuba_material(paint("ggx")));
   std::ostringstream text;

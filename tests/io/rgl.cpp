@@ -32,7 +32,7 @@ std::string bytes_of_numbers(const std::vector<Number>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
 }
 
-/// An array in which number i is a function of i.
+/// An array of the numbers value(0), value(1), ...
 template <class Value>
 field floats(std::vector<std::uint64_t> shape, const Value& value) {
   std::uint64_t count = 1;
@@ -73,7 +73,7 @@ std::string container(const fields& arrays) {
   return head + body;
 }
 
-gonio::io::rgl_material parsed(const std::string& text) { return read_rgl(scratch::bytes_of(text), "file"); }
+gonio::io::rgl_material read_text(const std::string& text) { return read_rgl(scratch::bytes_of(text), "file"); }
 
 }  // namespace
 
@@ -88,26 +88,26 @@ TEST_CASE("a material of the RGL database is read") {
   CHECK(material.parts().visible_normals.columns == 5);
   const gonio::direction up(0, 0, 1);
   CHECK((material(up, up) - gonio::rgb(0.0, 0.25, 0.5)).abs().maxCoeff() < 1e-7);
-  // Arrays of other types are passed over; the last one ends where the file does.
+  // Arrays of other types are skipped; the last one ends at the file's end.
   for (const auto& [type, size] :
        {std::pair{1, 1}, {2, 1}, {3, 2}, {4, 2}, {5, 4}, {6, 4}, {7, 8}, {8, 8}, {9, 2}, {10, 4}, {11, 8}}) {
     CAPTURE(type);
     fields more = small_material();
     more["zones"] = {static_cast<std::uint8_t>(type), {3}, std::string(static_cast<std::size_t>(3 * size), 'z')};
-    CHECK(parsed(container(more)).description == "paint");
+    CHECK(read_text(container(more)).description == "paint");
     more["zones"].bytes.pop_back();
-    check_refused([&] { return parsed(container(more)); }, {"'zones'", "does not lie within"});
+    check_refused([&] { return read_text(container(more)); }, {"'zones'", "does not lie within"});
   }
 }
 
-TEST_CASE("a material of spectra is read as its colours, and the spectra are kept") {
-  // The same at all wavelengths is grey; linear in them is what linear samples of Cornell's format are.
+TEST_CASE("a spectral material is read as colours, and its spectra are kept") {
+  // A constant spectrum is grey; a linear one has the colour of linear interpolation.
   fields arrays = small_material();
   arrays.erase("rgb");
   arrays["wavelengths"] = floats({4}, [](std::uint64_t i) { return 400.0 + 100.0 * static_cast<double>(i); });
   arrays["spectra"] =
       floats({1, 3, 4, 2, 2}, [](std::uint64_t i) { return i < 16 ? 1.0 : 0.1 * static_cast<double>(i / 4 % 4); });
-  const auto [material, description, spectra] = parsed(container(arrays));
+  const auto [material, description, spectra] = read_text(container(arrays));
   const gonio::model::unit_square_tables& colours = material.parts().reflectance;
   CHECK(colours.tables == 9);
   for (std::size_t i = 0; i < 12; ++i) CHECK(colours.values[i] == doctest::Approx(1.0).epsilon(1e-6));
@@ -120,13 +120,13 @@ TEST_CASE("a material of spectra is read as its colours, and the spectra are kep
   CHECK(spectra->values.tables == 12);
 }
 
-TEST_CASE("what is written of a material is read again, number for number") {
+TEST_CASE("a written material is read back number for number") {
   fields arrays = small_material();
   arrays.erase("rgb");
   arrays["wavelengths"] = floats({3}, [](std::uint64_t i) { return 450.0 + 50.0 * static_cast<double>(i); });
   arrays["spectra"] = floats({1, 3, 3, 2, 2}, [](std::uint64_t i) { return 0.01 * static_cast<double>(i); });
   for (const std::string& text : {container(small_material()), container(arrays)}) {
-    const gonio::io::rgl_material before = parsed(text);
+    const gonio::io::rgl_material before = read_text(text);
     const std::vector<std::byte> bytes = gonio::io::write_rgl(before);
     const gonio::io::rgl_material after = read_rgl(bytes, "again");
     CHECK(after.description == before.description);
@@ -139,8 +139,8 @@ TEST_CASE("what is written of a material is read again, number for number") {
   }
 }
 
-TEST_CASE("a written file has the arrays that Mitsuba and pbrt want, with their types and shapes") {
-  const std::vector<std::byte> bytes = gonio::io::write_rgl(parsed(container(small_material())));
+TEST_CASE("a written file has the arrays that Mitsuba and pbrt need, with their types and shapes") {
+  const std::vector<std::byte> bytes = gonio::io::write_rgl(read_text(container(small_material())));
   const auto found = gonio::io::detail::tensor_fields(bytes, "written");
   const std::map<std::string, std::pair<int, std::vector<std::uint64_t>>> expected{
       {"description", {1, {5}}},      {"phi_i", {10, {1}}},
@@ -156,13 +156,13 @@ TEST_CASE("a written file has the arrays that Mitsuba and pbrt want, with their 
     CHECK(found.at(name).shape == array.second);
   }
   CHECK(found.at("jacobian").elements[0] == std::byte{1});
-  // Luminances of red 0, green 1 and blue 2: any point can be drawn.
+  // The luminance of red 0, green 1 and blue 2.
   float bright = 0.0f;
   std::memcpy(&bright, found.at("luminance").elements.data(), sizeof bright);
   CHECK(bright == doctest::Approx(0.7152 + 2.0 * 0.0722));
 }
 
-TEST_CASE("a BRDF is written and read again within half a per cent of its peak") {
+TEST_CASE("a BRDF is read back with a mean error below 0.5 % of its peak") {
   const scratch::folder here;
   const gonio::model::ggx f{.alpha = 0.2, .f0 = gonio::rgb(0.9, 0.6, 0.3)};
   gonio::io::write_rgl(here / "metal.bsdf", f, "a metal");
@@ -181,14 +181,14 @@ TEST_CASE("a BRDF is written and read again within half a per cent of its peak")
         ++count;
       }
   CHECK(sum / count < 0.005 * peak);
-  // Golden: what Mitsuba 3.9.1 makes of this file (eval of its "measured", over the cosine).
+  // Golden: the value of Mitsuba 3.9.1 for this file (eval of its "measured", divided by the cosine).
   const gonio::rgb golden =
       material.as_measured(gonio::spherical_direction(0.5, 0.0), gonio::spherical_direction(0.6, 3.0));
   CHECK((golden - gonio::rgb(2.01104543, 1.34074924, 0.67045305)).abs().maxCoeff() < 1e-4);
 }
 
-TEST_CASE("a material in RGB is written in spectra of the same colours") {
-  gonio::io::rgl_material material = parsed(container(small_material()));
+TEST_CASE("a material in RGB is written as spectra of the same colours") {
+  gonio::io::rgl_material material = read_text(container(small_material()));
   material.spectra = gonio::io::upsampled_spectra(material.material);
   const gonio::io::rgl_material again = read_rgl(gonio::io::write_rgl(material), "again");
   REQUIRE(again.spectra);
@@ -201,21 +201,21 @@ TEST_CASE("a material in RGB is written in spectra of the same colours") {
 }
 
 TEST_CASE("materials that no renderer reads are not written") {
-  gonio::io::rgl_material material = parsed(container(small_material()));
+  gonio::io::rgl_material material = read_text(container(small_material()));
   material.spectra = gonio::io::rgl_spectra{{400.0, 500.0}, {5, 2, 2, std::vector<float>(20)}};
   check_refused([&] { return gonio::io::write_rgl(material); }, {"spectra need 6 tables", "not 5"});
   fields arrays = small_material();
   arrays["rgb"] = floats({1, 3, 3, 2, 3}, [](std::uint64_t) { return 1.0; });
-  check_refused([&] { return gonio::io::write_rgl(parsed(container(arrays))); }, {"square", "2 x 3"});
+  check_refused([&] { return gonio::io::write_rgl(read_text(container(arrays))); }, {"square", "2 x 3"});
 }
 
-TEST_CASE("of two azimuths of the light, the first is read") {
+TEST_CASE("if there are two azimuths of the light, the first is read") {
   fields arrays = small_material();
   arrays["phi_i"] = floats({2}, [](std::uint64_t i) { return static_cast<double>(i); });
   arrays["vndf"] = floats({2, 3, 4, 5}, [](std::uint64_t) { return 1.0; });
   arrays["rgb"] = floats({2, 3, 3, 2, 2}, [](std::uint64_t i) { return i < 36 ? 2.0 : 7.0; });
   const gonio::direction up(0, 0, 1);
-  CHECK(parsed(container(arrays)).material(up, up).x() == doctest::Approx(0.5));
+  CHECK(read_text(container(arrays)).material(up, up).x() == doctest::Approx(0.5));
 }
 
 TEST_CASE("bad files of the RGL database are refused") {
@@ -223,10 +223,11 @@ TEST_CASE("bad files of the RGL database are refused") {
   const auto refused = [](auto&& change, std::initializer_list<std::string> words) {
     fields arrays = small_material();
     change(arrays);
-    check_refused([&] { return parsed(container(arrays)); }, words);
+    check_refused([&] { return read_text(container(arrays)); }, words);
   };
-  check_refused([] { return parsed("tensor"); }, {"file: ", "does not start with 'tensor_file'"});
-  check_refused([] { return parsed(std::string("tensor_file\0\2\0\0\0\0\0", 18)); }, {"version 2.0", "expected 1.0"});
+  check_refused([] { return read_text("tensor"); }, {"file: ", "does not start with 'tensor_file'"});
+  check_refused([] { return read_text(std::string("tensor_file\0\2\0\0\0\0\0", 18)); },
+                {"version 2.0", "expected 1.0"});
   refused([](fields& all) { all.erase("rgb"); }, {"file: ", "no array 'rgb'"});
   const auto spectral = [](fields& all, std::vector<std::uint64_t> shape, double first) {
     all.erase("rgb");
@@ -265,7 +266,7 @@ TEST_CASE("damaged files of the RGL database are read or refused") {
 
 namespace {
 
-/// The arrays of a file of the database as they are, evaluated by what the paper says and nothing of the library's.
+/// Evaluates the arrays of a file by the paper's equations, without the library's model.
 class plain_evaluation {
  public:
   explicit plain_evaluation(const std::vector<std::byte>& bytes) {
@@ -281,7 +282,7 @@ class plain_evaluation {
     const gonio::direction m = (wi + wo).normalized();
     const double phi = std::atan2(m.y(), m.x()) - std::atan2(wi.y(), wi.x());
     const double v = phi / (2.0 * pi) + 0.5 - std::floor(phi / (2.0 * pi) + 0.5), u = elevation(m);
-    // The two angles of the light, and how far it is towards the second.
+    // The two angles around the light's, and the fraction of the way to the second.
     const std::vector<float>& angles = numbers_.at("theta_i");
     std::size_t first = 0;
     while (first + 2 < angles.size() && angles[first + 1] <= std::acos(wi.z())) ++first;
@@ -305,7 +306,7 @@ class plain_evaluation {
     return {numbers_.at(name).begin(), numbers_.at(name).end()};
   }
 
-  /// Table `channel` of `channels` of an angle and of the next one, each perhaps with the integral 1, mixed.
+  /// Mixes table `channel` of `channels` of an angle and of the next one; if `normalised`, each has the integral 1.
   std::vector<double> blend(const std::string& name, std::size_t angle, std::size_t channels, std::size_t channel,
                             double share, bool normalised) const {
     const std::vector<std::uint64_t>& shape = shapes_.at(name);
@@ -320,7 +321,7 @@ class plain_evaluation {
     return mixed;
   }
 
-  /// Bilinear.
+  /// Interpolates bilinearly.
   static double at(const std::vector<double>& values, std::size_t columns, double across, double along) {
     const double row = across * static_cast<double>(values.size() / columns - 1),
                  column = along * static_cast<double>(columns - 1);
@@ -331,7 +332,7 @@ class plain_evaluation {
     return (1 - y) * ((1 - x) * corner[0] + x * corner[1]) + y * ((1 - x) * corner[columns] + x * corner[columns + 1]);
   }
 
-  /// Of a row at any height, up to a column, which may be between two; Simpson's rule is exact for what is bilinear.
+  /// Integrates a row at any height up to a fractional column. Simpson's rule is exact for bilinear functions.
   static double row_integral(const std::vector<double>& values, std::size_t columns, double row, double end) {
     const double rows = static_cast<double>(values.size() / columns - 1), scale = static_cast<double>(columns - 1);
     double sum = 0.0;
@@ -343,7 +344,7 @@ class plain_evaluation {
     return sum;
   }
 
-  /// Of all rows up to one.
+  /// Integrates all rows up to a fractional one.
   static double integral(const std::vector<double>& values, std::size_t columns, double end) {
     double sum = 0.0;
     for (double from = 0.0; from < end; from += 1.0) {
@@ -368,7 +369,7 @@ class plain_evaluation {
 
 }  // namespace
 
-TEST_CASE("the files of the database are evaluated as by an evaluation of their arrays that shares nothing") {
+TEST_CASE("the database's files agree with an independent evaluation of their arrays") {
   const std::filesystem::path folder = std::filesystem::path(GONIO_SHARED_DATA) / "rgl-bsdf";
   if (!std::filesystem::exists(folder)) {
     MESSAGE("skipped: there is no " << folder.string());
@@ -387,7 +388,7 @@ TEST_CASE("the files of the database are evaluated as by an evaluation of their 
       const gonio::rgb expected = plain(wi, wo);
       CHECK(((material.as_measured(wi, wo) - expected).abs() < 1e-4 * (expected.abs() + 0.01)).all());
     }
-    // Written and read again it is the same.
+    // A written material is read back unchanged.
     const gonio::io::rgl_material whole = read_rgl(path);
     const auto again = read_rgl(gonio::io::write_rgl(whole), "again").material;
     CHECK(again.parts().reflectance.values == whole.material.parts().reflectance.values);
@@ -398,7 +399,7 @@ TEST_CASE("the files of the database are evaluated as by an evaluation of their 
   CHECK(files == 20);
 }
 
-TEST_CASE("what is read equals the same materials as others resampled them to MERL's format") {
+TEST_CASE("materials agree with others' conversions to MERL's format") {
   const std::filesystem::path shared(GONIO_SHARED_DATA);
   if (!std::filesystem::exists(shared / "rgl-bsdf") || !std::filesystem::exists(shared / "rgl-measured")) {
     MESSAGE("skipped: " << shared.string() << " has no rgl-bsdf and rgl-measured");
@@ -412,7 +413,7 @@ TEST_CASE("what is read equals the same materials as others resampled them to ME
     ++compared;
     CAPTURE(name);
     const gonio::brdf_table table = gonio::io::read_merl_any(table_path);
-    // Their file has 12 bits of each value, and its angles are those of the cells' lower corners.
+    // Their file has 12 bits of each value, and values at the cells' lower corners.
     double largest = 0.0;
     for (Eigen::Index cell = 7; cell < table.cells().size(); cell += 997) {
       const auto [wi, wo] = gonio::to_directions(table.cells().angles(cell));

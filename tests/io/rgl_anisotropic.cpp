@@ -27,7 +27,7 @@ const rgl_material& brushed() {
 
 }  // namespace
 
-TEST_CASE("an anisotropic file has its azimuths first, as the database's loader and Mitsuba want") {
+TEST_CASE("an anisotropic file has its azimuths first, as the database's loader and Mitsuba need") {
   const std::vector<std::byte> bytes = gonio::io::write_rgl(brushed());
   const auto found = gonio::io::detail::tensor_fields(bytes, "written");
   const std::map<std::string, std::vector<std::uint64_t>> expected{{"phi_i", {13}},
@@ -44,7 +44,7 @@ TEST_CASE("an anisotropic file has its azimuths first, as the database's loader 
   }
 }
 
-TEST_CASE("an anisotropic material is read as it was written, number for number") {
+TEST_CASE("an anisotropic material is read back number for number") {
   const scratch::folder here;
   gonio::io::write_rgl(here / "brushed.bsdf", brushed());
   const rgl_material again = read_rgl(here / "brushed.bsdf");
@@ -56,12 +56,12 @@ TEST_CASE("an anisotropic material is read as it was written, number for number"
   CHECK(gonio::io::write_rgl(again) == gonio::io::write_rgl(brushed()));
   const auto wi = gonio::spherical_direction(0.6, 0.4), wo = gonio::spherical_direction(0.5, 3.3);
   CHECK((again.material(wi, wo) / brushed().material(wi, wo) - 1.0).abs().maxCoeff() < 1e-6);
-  // Golden: what the database's own loader (github.com/rgl-epfl/brdf-loader) makes of this file, over the cosine.
+  // Golden: the value of the database's loader (github.com/rgl-epfl/brdf-loader) for this file, divided by the cosine.
   const gonio::rgb golden(1.13959309, 0.759728862, 0.379864431);
   CHECK((again.material.as_measured(wi, wo) / golden - 1.0).abs().maxCoeff() < 1e-5);
 }
 
-TEST_CASE("an anisotropic material in spectra is written and read, and evaluated in its azimuths") {
+TEST_CASE("an anisotropic material in spectra is read back and evaluated at its azimuths") {
   rgl_material spectral = brushed();
   spectral.spectra = gonio::io::upsampled_spectra(spectral.material);
   const rgl_material again = read_rgl(gonio::io::write_rgl(spectral), "again");

@@ -16,7 +16,7 @@ const gonio::valid_cells& cells() {
   return small;
 }
 
-/// A diffuse material that reflects more of the longer wavelengths.
+/// A diffuse material that reflects more at longer wavelengths.
 gonio::spectral_table diffuse_table() {
   gonio::spectral_table table(cells(), {420.0, 500.0, 580.0, 660.0});
   for (Eigen::Index cell = 0; cell < cells().size(); ++cell) table.values().row(cell) << 0.05f, 0.1f, 0.2f, 0.3f;
@@ -52,13 +52,13 @@ TEST_CASE("a spectral table is written as a spectral material, and its spectra a
   }
 }
 
-TEST_CASE("the tables of three wavelengths are those of the material that has them as channels") {
+TEST_CASE("tabulating a material's colours over its own directions gives its tables") {
   const gonio::spectral_table table = diffuse_table();
   const auto material = gonio::io::tabulate_adaptively(table, 0.0);
   const auto again = gonio::model::tabulate_over(material.material, table.colours());
   const std::vector<float>& expected = material.material.parts().reflectance.values;
   REQUIRE(again.values.size() == expected.size());
-  double worst = 0.0, largest = 0.0;  // densities are scaled to 1 meanwhile, which rounds them
+  double worst = 0.0, largest = 0.0;  // scaling densities to 1 rounds
   for (std::size_t i = 0; i < expected.size(); ++i) {
     worst = std::max(worst, std::abs(double{again.values[i]} - double{expected[i]}));
     largest = std::max(largest, std::abs(double{expected[i]}));
@@ -68,7 +68,7 @@ TEST_CASE("the tables of three wavelengths are those of the material that has th
   CHECK(same.spectra->values.values == material.spectra->values.values);
 }
 
-TEST_CASE("spectra over cells are those in the cells' directions") {
+TEST_CASE("spectra over cells equal those in the cells' directions") {
   gonio::spectral_table table = diffuse_table();
   for (Eigen::Index cell = 0; cell < cells().size(); ++cell)
     table.values().row(cell).array() += static_cast<float>(0.1 * cells().angles(cell).theta_h);
@@ -88,7 +88,7 @@ TEST_CASE("spectra over cells are those in the cells' directions") {
   CHECK(found.values() == gonio::io::tabulate_spectra(material, coarse, gonio::thread_count{3}).values());
 }
 
-TEST_CASE("spectra at other wavelengths are linear between their own") {
+TEST_CASE("spectra at other wavelengths are interpolated linearly") {
   const auto material = gonio::io::tabulate_adaptively(diffuse_table(), 0.0);
   const gonio::io::rgl_spectra& known = *material.spectra;
   const auto same = gonio::io::at_wavelengths(known, known.wavelengths);
@@ -116,7 +116,7 @@ TEST_CASE("spectra at other wavelengths are linear between their own") {
   check_refused([&] { return gonio::io::at_wavelengths(known, {500.0, 500.0}); }, {"wavelength 2"});
 }
 
-TEST_CASE("what is read between the wavelengths that are written is within the tolerance") {
+TEST_CASE("interpolation between the written wavelengths is within the tolerance") {
   std::vector<double> wavelengths;
   for (double nanometres = 400.0; nanometres <= 700.0; nanometres += 5.0) wavelengths.push_back(nanometres);
   gonio::spectral_table table(cells(), wavelengths);
@@ -138,7 +138,7 @@ TEST_CASE("what is read between the wavelengths that are written is within the t
   CHECK(worst > 0.5 * gonio::model::usual_albedo_tolerance);
 }
 
-TEST_CASE("what is no spectral material is refused") {
+TEST_CASE("a single wavelength and materials in RGB are refused") {
   const gonio::spectral_table laser(cells(), {633.0});
   check_refused([&] { return gonio::io::tabulate_adaptively(laser); }, {"two wavelengths"});
   const gonio::io::rgl_material in_rgb{
@@ -149,7 +149,7 @@ TEST_CASE("what is no spectral material is refused") {
   check_refused([&] { return gonio::io::tabulate_spectra(in_rgb, cells()); }, {"in RGB"});
 }
 
-TEST_CASE("wavelengths that nobody sees are written as they are") {
+TEST_CASE("invisible wavelengths are written unchanged") {
   gonio::spectral_table unseen(cells(), {905.0, 1550.0});
   unseen.values().col(0).setConstant(0.1f);
   unseen.values().col(1).setConstant(0.3f);

@@ -34,13 +34,13 @@ void check_rt300s_refused(const std::string& text, std::initializer_list<std::st
 
 }  // namespace
 
-TEST_CASE("RT-300S: a value for each azimuth and angle of the receiver, percent times the cosine") {
+TEST_CASE("RT-300S: a value for each azimuth and angle of the receiver, in percent times the cosine") {
   const auto samples = read_rt300s(exported + with(exported, "20\t \t", "30\t \t"), "x");
   REQUIRE(samples.size() == 12);
   CHECK(samples[1].value.x() * std::numbers::pi == doctest::Approx(0.12));
   CHECK(samples[5].value.x() * std::numbers::pi == doctest::Approx(-0.23 / 0.5));
-  CHECK(degrees(samples[0].angles().theta_h) == doctest::Approx(20.0));  // where the light comes from
-  CHECK(degrees(samples[2].angles().theta_h) == doctest::Approx(20.0));  // beyond the mirror direction
+  CHECK(degrees(samples[0].angles().theta_h) == doctest::Approx(20.0));  // the light's direction
+  CHECK(degrees(samples[2].angles().theta_h) == doctest::Approx(20.0));  // past the mirror direction
   CHECK(degrees(samples[2].angles().theta_d) == doctest::Approx(40.0));
   const auto& [wi, wo] = samples[5].directions.pair();
   CHECK(degrees(gonio::polar_angle(wo)) == doctest::Approx(60.0));
@@ -48,7 +48,7 @@ TEST_CASE("RT-300S: a value for each azimuth and angle of the receiver, percent 
   CHECK(degrees(gonio::polar_angle(samples[6].directions.pair().wi)) == doctest::Approx(30.0));
 }
 
-TEST_CASE("RT-300S: a column of the sheet for each reading") {
+TEST_CASE("RT-300S: the sheet has a column for each reading") {
   const auto samples = read_rt300s(sheet, "x");
   REQUIRE(samples.size() == 2);
   CHECK(degrees(samples[0].angles().theta_h) == doctest::Approx(0.0));  // the mirror direction
@@ -59,7 +59,7 @@ TEST_CASE("RT-300S: a column of the sheet for each reading") {
         doctest::Approx(1.0));
 }
 
-TEST_CASE("RT-300S: such a file is told by its first line") {
+TEST_CASE("RT-300S: a file is recognised by its first line") {
   CHECK(gonio::io::looks_like_rt300s(exported));
   CHECK(gonio::io::looks_like_rt300s(sheet));
   CHECK_FALSE(gonio::io::looks_like_rt300s(with(exported, "RT-300S", "Raywiz")));
@@ -67,7 +67,7 @@ TEST_CASE("RT-300S: such a file is told by its first line") {
   CHECK_FALSE(gonio::io::looks_like_rt300s(""));
 }
 
-TEST_CASE("RT-300S: what is no such file is refused") {
+TEST_CASE("RT-300S: bad files are refused") {
   check_rt300s_refused("", {"is empty", "BRDF(RT-300S)"});
   check_rt300s_refused("a\n", {"line 1", "'a'", "DataType: BRDF(RT-300S)"});
   check_rt300s_refused(with(exported, "BRDF", "BTDF"), {"line 1", "'BTDF(RT-300S)'"});

@@ -10,13 +10,13 @@ using gonio::io::detail::are_new_azimuths;
 using gonio::io::detail::sample_collector;
 using scratch::check_refused;
 
-TEST_CASE("azimuths that are a turn apart are the same") {
+TEST_CASE("azimuths that differ by a turn are the same") {
   CHECK(are_new_azimuths(std::array{0.0, 90.0, 360.0, -270.0, -1e-9, 450.0, 91.0}) ==
         std::vector<bool>{true, true, false, false, false, false, true});
   CHECK(are_new_azimuths({}).empty());
 }
 
-TEST_CASE("what is at the horizon or below is no sample") {
+TEST_CASE("directions at or below the horizon are skipped") {
   const gonio::direction up{0.0, 0.0, 1.0};
   sample_collector collector;
   const std::array one{1.0};
@@ -30,7 +30,7 @@ TEST_CASE("what is at the horizon or below is no sample") {
   CHECK(samples[0].weight == 0.5);
 }
 
-TEST_CASE("values are kept in the channels that they are of, and CIE XYZ becomes a colour") {
+TEST_CASE("values keep their channels, and CIE XYZ becomes a colour") {
   const gonio::direction up{0.0, 0.0, 1.0}, aside = gonio::spherical_direction(0.5, 0.0);
   const std::array values{0.1, 0.2, 0.4};
   sample_collector rgb{gonio::channels()}, xyz = sample_collector::of_xyz(), grey;
@@ -52,7 +52,7 @@ TEST_CASE("values are kept in the channels that they are of, and CIE XYZ becomes
   check_refused([] { return sample_collector(gonio::channels({650.0, 450.0})); }, {"wavelength 2"});
 }
 
-TEST_CASE("wavelengths that differ between pairs of directions make colours, if they can") {
+TEST_CASE("if wavelengths differ between pairs of directions, samples become colours or are refused") {
   const gonio::direction up{0.0, 0.0, 1.0}, aside = gonio::spherical_direction(0.5, 0.0);
   const std::array three{0.1, 0.2, 0.4};
   const std::array two{0.1, 0.1};
@@ -73,12 +73,12 @@ TEST_CASE("wavelengths that differ between pairs of directions make colours, if 
                 {"ir.table", "different wavelengths", "the same wavelengths in"});
 }
 
-TEST_CASE("what no float holds is refused") {
-  const gonio::io::text_place place{"large.table", 7};
-  gonio::io::detail::require_float_range(-3e38, place);
+TEST_CASE("values outside the range of float are refused") {
+  const gonio::io::text_position position{"large.table", 7};
+  gonio::io::detail::require_float_range(-3e38, position);
   check_refused(
       [&] {
-        gonio::io::detail::require_float_range(1e39, place);
+        gonio::io::detail::require_float_range(1e39, position);
         return 0;
       },
       {"large.table", "line 7", "1e+39", "range of float"});

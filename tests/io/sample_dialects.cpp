@@ -28,7 +28,7 @@ noted_samples read_noted(const std::string& text) {
   return read;
 }
 
-/// Checks that a text is two samples: 30 and -45 degrees with a reflectance factor of .125, and 0 and 10 with 10.8143.
+/// Checks that a text has two samples: 30 and -45 degrees with a reflectance factor of .125, and 0 and 10 with 10.8143.
 void check_two_samples(const std::string& text) {
   CAPTURE(text);
   const auto samples = read_samples(text, "arm.csv");
@@ -69,13 +69,13 @@ TEST_CASE("rows without a value are left out and counted") {
   check_text_refused(header + "1,2,3,4,5,6\n1,2,3,five,5,6\n", {"line 3", "'five' is not a number"});
   check_text_refused("theta_i,phi_i,theta_o,phi_o,brdf\n90,0,1,0,1\n90,0,2,0,1\n1,0,1,0,1\n",
                      {"2 of 3 rows are left out", "at most half"});
-  // Percent signs and wavelengths are those of the rows that count.
+  // Rows without a value set neither percent signs nor wavelengths.
   CHECK(read_samples("theta_h,theta_d,phi_d,value,wavelength\n1,2,3,n/a,\n1,2,3,5 %,550\n", "x").size() == 1);
   // Directions to be measured have no value yet.
   CHECK(gonio::io::has_directions_alone("theta_i,phi_i,theta_o,phi_o\n1,2,3,4\n", "x", {}));
 }
 
-TEST_CASE("a first line names the separator") {
+TEST_CASE("a first line sep= sets the separator") {
   check_two_samples("sep=;\n" + german);
   check_two_samples("\"sep=;\"\r\n" + german);
   check_two_samples("SEP=\t\ntheta_i\ttheta_o\tpercent\n30\t-45\t12,5\n0\t10\t1081,43\n");
@@ -84,7 +84,7 @@ TEST_CASE("a first line names the separator") {
   check_text_refused("sep=;\n", {"is empty"});
 }
 
-TEST_CASE("lines above the header line are passed over, and said") {
+TEST_CASE("lines above the header line are skipped and noted") {
   const auto [samples, notes] = read_noted(
       "Ger\xC3\xA4t;GON-3;;\nProbe;Lack, rot;;\n\n# quantity: percent\nDatum;\"12.11.2026;;\n"
       "theta_i;theta_o;value;temp\n30;-45;12,5;23\n");
@@ -97,7 +97,7 @@ TEST_CASE("lines above the header line are passed over, and said") {
   check_text_refused("GON-3;serial 17\n1;2\n", {"line 1", "no columns of directions"});
 }
 
-TEST_CASE("a line of units below the header line") {
+TEST_CASE("a line of units below the header line is read") {
   check_two_samples("theta_i;theta_o;Leuchtdichtefaktor\n[\xC2\xB0];deg;%\n30;-45;12,5\n0;10;1081,43\n");
   check_two_samples(
       "theta_i;theta_o;reflectance factor\nrad;rad;-\n0,5235987756;-0,7853981634;0,125\n"
@@ -108,7 +108,7 @@ TEST_CASE("a line of units below the header line") {
   check_text_refused("theta_i;theta_o;value\ndeg;deg;cd\n30;-45;12,5\n", {"line 1", "'value'"});
 }
 
-TEST_CASE("UTF-16, carriage returns alone and signs at numbers") {
+TEST_CASE("UTF-16, lone carriage returns, and degree and percent signs are read") {
   check_two_samples(utf16(german, false));
   check_two_samples(utf16(german, true));
   check_two_samples(utf16(german, false).substr(2));
@@ -121,7 +121,7 @@ TEST_CASE("UTF-16, carriage returns alone and signs at numbers") {
   check_text_refused("theta_i;theta_o;brdf\n30;-45;1\xC2\xB0\n", {"line 2", "column value", "is not a number"});
 }
 
-TEST_CASE("thousands are set apart where that is unambiguous") {
+TEST_CASE("group marks of thousands are read if they are unambiguous") {
   for (const std::string number : {"1.081,43", "1'081,43",
                                    "1\xC2\xA0"
                                    "081,43",
@@ -136,7 +136,7 @@ TEST_CASE("thousands are set apart where that is unambiguous") {
   };
   CHECK(value_of("-1.234.567,5") == doctest::Approx(-1234567.5));
   CHECK(value_of("1'234") == 1234.0);
-  CHECK(value_of("1,234") == 1.234);  // a decimal comma: one mark alone may be one
+  CHECK(value_of("1,234") == 1.234);  // one mark alone is a decimal mark
   for (const std::string number :
        {"1.23,4", "1.23.456,7", "1.2345,6", "12345.678,9", "1,234,567", "1'23", "'123", "1.234.56"}) {
     CAPTURE(number);
@@ -145,7 +145,7 @@ TEST_CASE("thousands are set apart where that is unambiguous") {
   check_text_refused("theta_i;theta_o;percent\n30;-45;12,5\n0;10;1,081.43\n", {"line 3", "decimal point"});
 }
 
-TEST_CASE("columns in French, German, Greek letters and the words of remote sensing") {
+TEST_CASE("names of columns may be French, German, in Greek letters, or terms of remote sensing") {
   for (const std::string header :
        {"Einfallswinkel [\xC2\xB0];Beobachtungswinkel [\xC2\xB0];Leuchtdichtefaktor [%]",
         "Angle d'incidence (\xC2\xB0);Angle d\xE2\x80\x99observation (\xC2\xB0);Facteur de luminance (%)",
@@ -159,7 +159,7 @@ TEST_CASE("columns in French, German, Greek letters and the words of remote sens
   check_text_refused("R;theta_i;theta_o\n1;45;-45\n", {"'g' is missing", "--columns value=R"});
 }
 
-TEST_CASE("the azimuth between light and viewer") {
+TEST_CASE("an azimuth relative to the light's is read") {
   for (const std::string name : {"dphi", "raa", "phi", "\xCE\x94\xCF\x86 [\xC2\xB0]", "relative azimuth"}) {
     CAPTURE(name);
     const auto [samples, notes] = read_noted("theta_i,theta_o," + name + ",brdf\n30,30,180,1\n30,40,50,1\n");
@@ -170,7 +170,7 @@ TEST_CASE("the azimuth between light and viewer") {
   }
   const gonio::io::sample_reading as_mirror{.sign = gonio::io::theta_o_sign::mirror};
   CHECK(read_samples("theta_i,theta_o,raa,brdf\n30,30,0,1\n", "x", as_mirror)[0].angles().theta_h < 1e-6);
-  // Beside both azimuths it is not needed, beside one it is refused.
+  // Beside both azimuths it is ignored, beside one it is refused.
   CHECK(read_samples("sza,vza,saa,vaa,raa,brf\n30,30,10,190,180,1\n", "x")[0].angles().theta_h < 1e-6);
   check_text_refused("theta_i,theta_o,phi_i,dphi,brdf\n30,30,10,180,1\n", {"line 1", "'dphi'", "expected one of them"});
 }

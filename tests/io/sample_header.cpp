@@ -10,7 +10,7 @@ using gonio::io::read_samples;
 using scratch::check_refused;
 using scratch::check_text_refused;
 
-TEST_CASE("angles in radians, if their columns say so") {
+TEST_CASE("angles are in radians if their columns state it") {
   const auto samples = read_samples("theta_h [rad],theta_d (radians),phi_d_rad,r,g,b\n0.5,0.25,1,1,1,1\n", "x");
   CHECK(samples[0].angles().theta_h == doctest::Approx(0.5));
   CHECK(samples[0].angles().theta_d == doctest::Approx(0.25));
@@ -19,7 +19,7 @@ TEST_CASE("angles in radians, if their columns say so") {
                      {"line 1", "'theta_h' is missing", "perhaps it is 'theta_h [mrad]'"});
 }
 
-TEST_CASE("what is ignored or assumed is noted") {
+TEST_CASE("ignored columns and assumptions are noted") {
   std::vector<std::string> notes;
   const gonio::io::sample_reading reading{
       .columns = {}, .quantity = {}, .note = [&](const std::string& sentence) { notes.push_back(sentence); }};
@@ -34,14 +34,14 @@ TEST_CASE("what is ignored or assumed is noted") {
                            "same side of the normal where theta_i and theta_o have the same sign"));
 }
 
-TEST_CASE("columns under names of their own") {
+TEST_CASE("the caller can name columns") {
   const gonio::io::sample_reading named{.columns = {{"theta_o", "winkel"}, {"value", "Y (D65)"}},
                                         .quantity = gonio::io::sample_quantity::brdf,
                                         .note = {}};
   const auto samples = read_samples("theta_i;phi_i;Winkel [deg];phi_o;Y (D65)\n0;0;60;0;0,5\n", "x", named);
   CHECK(samples[0].directions.pair().wo.z() == doctest::Approx(0.5));
   CHECK(samples[0].value[2] == 0.5);
-  // The column that was theta_o otherwise is ignored.
+  // The column that would be theta_o is ignored.
   const auto both = read_samples("theta_i;phi_i;Winkel;theta_o;phi_o;Y (D65)\n0;0;60;1;0;0,5\n", "x", named);
   CHECK(both[0].directions.pair().wo.z() == doctest::Approx(0.5));
   check_refused([&] { return read_samples("theta_i,phi_i,angle,phi_o,Y (D65)\n0,0,60,0,1\n", "x", named); },

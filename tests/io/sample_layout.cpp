@@ -1,4 +1,4 @@
-// Matrices, angles that are stated above the header line, and tristimulus values.
+// Matrices, angles stated above the header line, and tristimulus values.
 
 #include "sample_text.hpp"
 #include <gonio/core/rgb.hpp>
@@ -55,7 +55,7 @@ TEST_CASE("a matrix has the viewer's angle down and the light's across") {
   CHECK(said[2] == "arm.csv: 2 of 6 cells are left out: no value (line 4: '')");
 }
 
-TEST_CASE("a matrix has the light's angle down where its first field says so") {
+TEST_CASE("a matrix has the light's angle down if its first field names it") {
   for (const std::string corner : {"theta_i", "AOI [deg]", "theta_i \\ theta_o", "Einfallswinkel|Beobachtungswinkel"}) {
     CAPTURE(corner);
     const auto samples = read_samples(percent + corner + "\t-10\t22.5\n30\t1\t2\n", "arm.csv");
@@ -72,7 +72,7 @@ TEST_CASE("a matrix has the light's angle down where its first field says so") {
   }
 }
 
-TEST_CASE("a matrix may stand below a preamble and above units, and be turned") {
+TEST_CASE("a matrix may have a preamble, a line of units and a sign of theta_o") {
   const std::string text = "Scatterometer;7;\n\nRun;2;\ntheta_o;0;30\ndeg;%;%\n40;12,5;25\n";
   notes said;
   const auto samples = read_samples(text, "arm.csv",
@@ -88,11 +88,11 @@ TEST_CASE("a matrix may stand below a preamble and above units, and be turned") 
   CHECK(said[0] == "arm.csv: 2 lines above the header line are not read");
   CHECK(read_samples(percent + "theta_o,0,30\n40,12.5 %,25 %\n-40,1 %,2%\n", "x").size() == 4);
   CHECK(read_samples(percent + "Einfallswinkel: 30\ntheta_o;0;30\n-40;1;2\n", "x").size() == 2);
-  // Directions of a matrix, whatever cells are empty.
+  // A matrix has values even if its first cell is empty.
   CHECK_FALSE(gonio::io::has_directions_alone(percent + "theta_o;0;30\n-40;;2\n-45;1;2\n", "x"));
 }
 
-TEST_CASE("what is no matrix, or has no sides, is refused") {
+TEST_CASE("bad matrices and matrices of unknown sides are refused") {
   check_text_refused("theta_o;0;30\n45;1;2\n-45;1;2\n", {"line 2", "does not state the quantity of value"});
   check_text_refused(percent + "theta_o;0;30\n45;1;2\n40;1;2\n", {"line 3", "side of the normal is unknown"});
   check_text_refused(percent + "theta_o;0;95\n-45;1;2\n", {"line 2", "'theta_i' is missing", "'95'"});
@@ -108,7 +108,7 @@ TEST_CASE("what is no matrix, or has no sides, is refused") {
   check_text_refused(percent + "theta_o;0;30\n-45;n/a;\n", {"2 of 2 cells have no value"});
 }
 
-TEST_CASE("an angle that a line above the header line states counts for all samples") {
+TEST_CASE("an angle stated above the header line applies to all samples") {
   const std::string table = "theta_o;400nm;500nm\n-45;1;2\n45;3;4\n";
   for (const std::string above :
        {"# theta_i: 30\n", "Messung;7\nEinfallswinkel: 30\xC2\xB0\n", "theta_i;30;\n", "Theta_i [deg] = 30,0;\n"}) {
@@ -123,7 +123,7 @@ TEST_CASE("an angle that a line above the header line states counts for all samp
   }
   const auto hemisphere = read_samples(percent + "# theta_i: 30\n# phi_i: 90\ntheta_o;phi_o;value\n45;270;1\n", "x");
   CHECK(hemisphere[0].angles().theta_d == doctest::Approx(gonio::radians(37.5)));
-  // A column is what counts.
+  // A column overrides the stated angle.
   CHECK(signed_angles(read_samples(percent + "# theta_i: 30\ntheta_i;theta_o;value\n20;-45;1\n", "x")[0]) ==
         angles{20.0, -45.0});
   check_text_refused(percent + table, {"line 2", "'theta_i' is missing"});
@@ -132,7 +132,7 @@ TEST_CASE("an angle that a line above the header line states counts for all samp
   check_text_refused(percent + "# theta_i: 95\n" + table, {"line 4", "theta_i: 95 degrees"});
 }
 
-TEST_CASE("X, Y and Z are tristimulus values under D65, of a quantity that is stated") {
+TEST_CASE("X, Y and Z are tristimulus values under D65, of a stated quantity") {
   const std::string rows = "theta_i;theta_o;X;Y;Z\n30;-30;19,56;11,87;3,97\n";
   notes said;
   const auto samples = read_noted(percent + rows, said);
@@ -149,7 +149,7 @@ TEST_CASE("X, Y and Z are tristimulus values under D65, of a quantity that is st
         doctest::Approx(1.0 / std::numbers::pi).epsilon(0.01));
 }
 
-TEST_CASE("the scale of X, Y and Z is assumed and said where it is plain, else refused") {
+TEST_CASE("an evident scale of X, Y and Z is assumed and noted, an unclear one is refused") {
   const auto read = [](const std::string& rows, notes& said) {
     return read_noted("theta_i;theta_o;X;Y;Z\n" + rows, said);
   };
@@ -168,7 +168,7 @@ TEST_CASE("the scale of X, Y and Z is assumed and said where it is plain, else r
                 {"the largest Y is 4, the median 0.1", "--quantity reflectance-factor if", "--quantity percent if"});
 }
 
-TEST_CASE("X, Y and Z beside other values, in small letters or not all of them are ignored") {
+TEST_CASE("X, Y and Z are ignored beside other values, in lower case, or if one is missing") {
   CHECK(read_samples("theta_i,theta_o,r,g,b,X,Y,Z\n30,-30,1,2,3,4,5,6\n", "x")[0].value.z() == 3.0);
   CHECK(read_samples("theta_i,theta_o,brdf,x,y,z\n30,-30,1,4,5,6\n", "x")[0].value.z() == 1.0);
   const auto beside = read_samples("x,y,theta_i,theta_o,X [%],Y [%],Z [%]\n.3,.3,30,-30,95,100,109\n", "x");

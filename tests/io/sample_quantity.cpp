@@ -83,7 +83,7 @@ TEST_CASE("every quantity becomes a BRDF, as option, comment, column, name, unit
   CHECK(read("theta_i;phi_i;theta_o;phi_o;r;g;b\n10;0;60;0;14,5%;14,5%;14,5%\n") == doctest::Approx(0.145 / pi));
 }
 
-TEST_CASE("a file and its reader agree on what the numbers are, or are refused") {
+TEST_CASE("missing and contradicting quantities are refused") {
   const std::string grey = "theta_h,theta_d,phi_d,value\n1,2,3,4\n";
   check_text_refused(grey, {"line 2", "does not state the quantity of value", "# quantity: brdf", "--quantity"});
   check_text_refused("# quantity: radiance\n" + grey, {"line 1", "'radiance' is unknown", "reflectance-factor"});

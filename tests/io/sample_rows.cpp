@@ -18,7 +18,7 @@ const std::string half_header = "theta_h,theta_d,phi_d,r,g,b\n";
 
 }  // namespace
 
-TEST_CASE("the same samples in every dialect") {
+TEST_CASE("every dialect gives the same samples") {
   const auto expected = read_samples(
       "theta_i,phi_i,theta_o,phi_o,r,g,b,weight\n30.5,0,45,180.25,0.1,-0.2,3e-1,1\n10,20,60,90,1,2,3,0.5\n", "x");
   for (const std::string text :
@@ -38,15 +38,15 @@ TEST_CASE("the same samples in every dialect") {
         "\"30,5\",0,45,\"180,25\",\"0,1\", \"-0,2\" ,3e-1,1\r\n10,20,60,90,1,2,3,\"0,5\"\r\n",
         "theta_i \"phi_i\" theta_o phi_o r g b weight\n\"30.5\" 0 45 180.25 0.1 -0.2 3e-1 \"1\" \n10 20 60 90 1 2 3 "
         ".5\n",
-        // names in any case, with units, and what instruments call them
+        // names in any case, with units, and synonyms
         "\xEF\xBB\xBFTheta In;PHI_IN;Theta Out [deg];phi_s (\xC2\xB0);Red;GREEN;b [1/sr];Weight\n"
         "30,5;0;45;180,25;0,1;-0,2;3e-1;1\n10;20;60;90;1;2;3;0,5\n",
         "thetai,phii,theta_r_deg,phi_r/deg,R,G,B "
         "[sr^-1],weight\n30.5,0,45,180.25,0.1,-0.2,3e-1,1\n10,20,60,90,1,2,3,.5\n",
-        // what spreadsheets make of comments, empty lines and short header lines
+        // comments, empty lines and short header lines as spreadsheets write them
         "\"# measured, on a Thursday\";;;;;;;\ntheta_i;phi_i;theta_o;phi_o;r;g;b;weight;;\n;;;;;;;;;\n"
         "30,5;0;45;180,25;0,1;-0,2;3e-1;1;;\n10;20;60;90;1;2;3;0,5\n",
-        // columns that are not needed, of text and with quotes in it
+        // other columns, of text with quotes
         "number,theta_i,phi_i,theta_o,phi_o,r,g,b,weight,remark\n1,30.5,0,45,180.25,0.1,-0.2,3e-1,1,\"a \"\"b\"\", "
         "c\"\n"
         "2,10,20,60,90,1,2,3,0.5,\n",
@@ -64,7 +64,7 @@ TEST_CASE("the same samples in every dialect") {
   }
 }
 
-TEST_CASE("without azimuths the signs of an in-plane scan tell the sides apart") {
+TEST_CASE("without azimuths, the signs of polar angles give the sides of the normal") {
   const auto samples = read_samples("theta_i,theta_o,value\n# quantity: brdf\n45,-45,2\n45,20,1\n", "x");
   CHECK(samples[0].angles().theta_h == doctest::Approx(0.0));  // the mirror direction
   CHECK(degrees(samples[1].angles().theta_d) == doctest::Approx(12.5));
@@ -76,7 +76,7 @@ TEST_CASE("without azimuths the signs of an in-plane scan tell the sides apart")
   check_text_refused("theta_i,r,g,b\n45,1,1,1\n", {"'theta_o' is missing"});
 }
 
-TEST_CASE("one wavelength, and what a file says of its measurements") {
+TEST_CASE("one wavelength and the file's provenance are read") {
   const auto file = gonio::io::read_sample_file(
       "# Instrument: GON 360: arm 2\n#date:2026-11-25\n# conditions: 23 C\n# conditions: dry\n# other: x\n"
       "theta_i,phi_i,theta_o,phi_o,wavelength [nm],BRDF [1/sr]\n10,0,60,0,633,0.25\n10,0,50,0,633,0.5\n",
@@ -101,7 +101,7 @@ TEST_CASE("a number sign in quotes begins a comment only above the header line")
   CHECK(samples[1].value[0] == 5.0);
 }
 
-TEST_CASE("refusals say what the file looks like") {
+TEST_CASE("errors describe the file's dialect") {
   check_text_refused("theta_i;phi_i;tetha_o;phi_o;r;g;b\n1;2;3;4;5;6;7\n",
                      {"line 1", "'theta_o' is missing: perhaps it is 'tetha_o'", "looks semicolon-separated"});
   check_text_refused("Einfall;Ausfall;Y\n1;2;3\n",
@@ -123,7 +123,7 @@ TEST_CASE("refusals say what the file looks like") {
   check_text_refused(std::string("\xFF\xFEt\x00h\x00", 6), {"line 1", "no columns of directions", "'th'"});
 }
 
-TEST_CASE("the sign of theta_o in a scan without azimuths is stated, or told by where it is bright") {
+TEST_CASE("without azimuths, the sign of theta_o is stated, or checked by brightness") {
   const auto scan = [](double towards_light, double mirror) {
     return "theta_i,theta_o,r,g,b\n30,28," + std::to_string(towards_light) + ",1,1\n30,0,1,1,1\n30,-31," +
            std::to_string(mirror) + ",1,1\n";
@@ -134,15 +134,15 @@ TEST_CASE("the sign of theta_o in a scan without azimuths is stated, or told by 
   const gonio::io::sample_reading as_mirror{.sign = gonio::io::theta_o_sign::mirror},
       as_light{.sign = gonio::io::theta_o_sign::light};
   CHECK(side_of_first(scan(1.0, 30.0)) == std::string("light"));
-  CHECK(side_of_first(scan(1.9, 1.0)) == std::string("light"));  // a little towards the light is rough
+  CHECK(side_of_first(scan(1.9, 1.0)) == std::string("light"));  // rough surfaces are brighter towards the light
   check_text_refused(scan(30.0, 0.0), {"theta_o = theta_i", "times as bright", "--theta-o-sign mirror"});
   check_text_refused(scan(30.0, 1.0), {"30 times as bright"});
   CHECK(side_of_first(scan(30.0, 1.0), as_mirror) == std::string("mirror"));
   CHECK(side_of_first(scan(30.0, 1.0), as_light) == std::string("light"));
   CHECK(side_of_first("# theta-o-sign: mirror\n" + scan(30.0, 1.0)) == std::string("mirror"));
-  // The receiver was not before the lamp.
+  // No reading has the receiver in front of the lamp.
   check_text_refused("theta_i,theta_o,r,g,b\n30,31,30,1,1\n30,-60,1,1,1\n", {"30 times as bright"});
-  // One sided, which only a stated sign tells.
+  // If all readings are on one side, only a stated sign gives the side.
   CHECK(side_of_first("theta_i,theta_o,r,g,b\n30,31,1,1,1\n", as_mirror) == std::string("mirror"));
   check_text_refused("# theta-o-sign: left\n" + scan(1.0, 1.0), {"line 1", "'left'", "light or mirror"});
   check_refused([&] { return gonio::io::read_samples("# theta-o-sign: light\n" + scan(1.0, 1.0), "x", as_mirror); },
@@ -152,7 +152,7 @@ TEST_CASE("the sign of theta_o in a scan without azimuths is stated, or told by 
       {"paint.csv", "to which theta-o-sign does not apply"});
 }
 
-TEST_CASE("azimuths are counted from the mirror direction where theta-o-sign says so") {
+TEST_CASE("azimuths are counted from the mirror direction if theta-o-sign is mirror") {
   const std::string rows = "theta_i,phi_i,theta_o,phi_o,r,g,b\n30,10,30,10,1,1,1\n20,0,40,50,1,1,1\n";
   const gonio::io::sample_reading as_mirror{.sign = gonio::io::theta_o_sign::mirror};
   const auto check_turned = [](const gonio::io::sample_file& file) {

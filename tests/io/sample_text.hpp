@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of samples as text share.
+// Common parts of the tests of samples as text.
 
 #include "scratch.hpp"
 #include <gonio/io/measurements/samples.hpp>
@@ -9,7 +9,7 @@
 
 namespace scratch {
 
-/// Checks that a text is refused as samples, in a sentence that names it and has these words.
+/// Checks that `read_samples` refuses a text with a message that names it and has these words.
 inline void check_text_refused(const std::string& text, std::initializer_list<std::string> words) {
   CAPTURE(text);
   check_refused([&] { return gonio::io::read_samples(text, "paint.csv"); }, {"paint.csv"});

@@ -25,7 +25,7 @@ void check_text_refused(const std::string& text, std::initializer_list<std::stri
 
 }  // namespace
 
-TEST_CASE("columns called by their wavelengths are spectra, however instruments write them") {
+TEST_CASE("columns named by wavelengths are spectra, in every notation of instruments") {
   const std::vector<double> expected{400.0, 410.5, 700.0};
   for (const std::string columns :
        {"400nm,410.5nm,700nm", "400,410.5,700", "400 nm,410.5 nm,700 nm", "400 [nm],410.5 [nm],700 [nm]",
@@ -42,7 +42,7 @@ TEST_CASE("columns called by their wavelengths are spectra, however instruments 
   }
 }
 
-TEST_CASE("numbers that are called wavelengths may be any") {
+TEST_CASE("explicit wavelengths may have any value") {
   for (const std::string columns :
        {"13.5nm,25000nm", "13.5 [nm],25000 [nm]", "w13.5,w25000", "lambda_13.5,lambda_25000"}) {
     CAPTURE(columns);
@@ -51,7 +51,7 @@ TEST_CASE("numbers that are called wavelengths may be any") {
   }
 }
 
-TEST_CASE("spectra may be stated in any quantity, in any dialect, with weights and other columns among them") {
+TEST_CASE("spectra may have any quantity and dialect, weights and other columns") {
   const auto file = read_sample_file(
       "# instrument: arm\n# quantity: "
       "percent\ntheta_i;theta_o;phi_i;phi_o;weight;500nm;600nm\n10;20;0;90;0,5;31,4;100\n",
@@ -65,7 +65,7 @@ TEST_CASE("spectra may be stated in any quantity, in any dialect, with weights a
   CHECK(file.provenance.instrument == "arm");
 }
 
-TEST_CASE("one wavelength is one channel, as it is") {
+TEST_CASE("one wavelength is one channel") {
   const std::string laser = "# quantity: brdf\n" + angles + "633nm\n" + at + "0.25\n";
   const auto file = read_sample_file(laser, "x");
   CHECK(file.samples.channels() == gonio::channels({633.0}));
@@ -76,7 +76,7 @@ TEST_CASE("one wavelength is one channel, as it is") {
   CHECK(read_sample_file(unnamed, "x").samples.channels() == gonio::channels::one_value());
 }
 
-TEST_CASE("what are no spectra is refused") {
+TEST_CASE("bad spectra are refused") {
   const std::string brdf = "# quantity: brdf\n";
   check_text_refused(brdf + angles + "500nm,400nm\n" + at + "1,2\n", {"line 2", "'400nm'", "500 nm", "ascend"});
   check_text_refused(brdf + angles + "400nm,400\n" + at + "1,2\n", {"line 2", "'400'", "without repeats"});
@@ -91,18 +91,18 @@ TEST_CASE("what are no spectra is refused") {
   check_text_refused(brdf + angles + "400nm,wavelength\n" + at + "1,400\n", {"wavelength", "400nm"});
   check_text_refused(brdf + angles + "400nm,500nm,weight_r,weight_g,weight_b\n" + at + "1,2,1,1,1\n", {"one weight"});
   check_text_refused(brdf + angles + "400nm,500nm\n", {"no samples"});
-  // Small numbers are no wavelengths: such columns are ignored as before.
+  // Small numbers are not wavelengths: such columns are ignored.
   check_text_refused(brdf + angles + "1,2\n" + at + "1,2\n", {"'r' is missing", "as 400nm"});
 }
 
-TEST_CASE("directions are read of files of spectra") {
+TEST_CASE("directions are read from files of spectra") {
   const scratch::folder here;
   const auto path = here / "spectra.csv";
   scratch::put(path, angles + "400nm,500nm\n" + at + "1,2\n");
   CHECK(gonio::io::read_directions(path).size() == 1);
 }
 
-TEST_CASE("spectra that are written are read back bit by bit") {
+TEST_CASE("spectra are read back bit for bit") {
   const scratch::folder here;
   const gonio::channels bands({400.0, 632.8, 1064.0});
   gonio::sample_set samples(bands);

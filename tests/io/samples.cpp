@@ -21,7 +21,7 @@ const std::string header = "theta_h,theta_d,phi_d,r,g,b\n";
 
 }  // namespace
 
-TEST_CASE("directions alone: no column of values, in any dialect") {
+TEST_CASE("a file without a column of values has directions alone, in any dialect") {
   using gonio::io::has_directions_alone;
   CHECK(has_directions_alone("theta_i;phi_i;theta_o;phi_o\n10,5;0;20;180\n", "a.csv"));
   CHECK(!has_directions_alone("theta_i,phi_i,theta_o,phi_o,r,g,b\n10,0,20,180,1,1,1\n", "a.csv"));
@@ -40,7 +40,7 @@ TEST_CASE("half and difference angles are read in degrees") {
   CHECK(samples[1].weight == 0.0);
 }
 
-TEST_CASE("a weight for each channel") {
+TEST_CASE("a sample may have a weight for each channel") {
   const std::string columns = "weight_g,theta_h,theta_d,phi_d,r,g,b,weight_r,weight_b\n";
   const auto samples = read_samples(columns + "0.5,10,20,30,1,2,3,2,0\n", "x");
   CHECK(samples[0].weight == gonio::channel_weights(gonio::rgb(2.0, 0.5, 0.0)));
@@ -50,7 +50,7 @@ TEST_CASE("a weight for each channel") {
                      {"line 1", "two ways", "weight_r,weight_g,weight_b"});
 }
 
-TEST_CASE("half angles of readings stand in columns, or above all of them") {
+TEST_CASE("half angles are read from columns or from a comment") {
   const std::string at = "theta_h,theta_d,phi_d,r,g,b";
   const auto columns = read_samples(
       at + ",source_half_angle,Receiver Half Angle [rad]\n10,20,30,1,2,3,0.25,0.02\n10,20,30,1,2,3,0,0\n", "x");
@@ -84,7 +84,7 @@ TEST_CASE("all three ways to give directions agree") {
        {std::string("theta_i,phi_i,theta_o,phi_o,r,g,b\n30,40,50,200,1,1,1\n"),
         std::string("theta_i,phi_i,theta_o,phi_o,r,g,b\n-30,220,50,-160,1,1,1\n"),
         "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,r,g,b\n" + vector_text(wi) + "," + vector_text(wo) + ",1,1,1\n",
-        // Vectors of instruments are rounded; they are normalised.
+        // Rounded vectors of instruments are normalised.
         "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,r,g,b\n" + vector_text(1.0009 * wi) + "," + vector_text(0.9991 * wo) +
             ",1,1,1\n"}) {
     CAPTURE(text);
@@ -97,7 +97,7 @@ TEST_CASE("all three ways to give directions agree") {
   }
 }
 
-TEST_CASE("columns may stand in any order, among blanks, comments and either line ends") {
+TEST_CASE("columns may have any order, blanks, comments and either line end") {
   const auto samples = read_samples(
       "\xEF\xBB\xBF# measured on a Thursday\r\n\r\n b , weight,\tr, g ,phi_d, theta_d , theta_h\r\n"
       "  # another\r\n 3 ,4, +1 ,2,30,20,10\r\n   \r\n3,4,1,2,30,20,10",
@@ -111,7 +111,7 @@ TEST_CASE("columns may stand in any order, among blanks, comments and either lin
   }
 }
 
-TEST_CASE("directions are read alone") {
+TEST_CASE("directions are read without values") {
   const scratch::folder here;
   scratch::put(here / "a", "theta_h,theta_d,phi_d\n9,12,69\n1,7,180\n");
   const auto directions = read_directions(here / "a");
@@ -128,7 +128,7 @@ TEST_CASE("directions are read alone") {
   scratch::check_refuses_non_files([](const auto& path) { return read_directions(path); });
 }
 
-TEST_CASE("pairs of directions tell light and viewer apart, and come back as they were written") {
+TEST_CASE("pairs of directions distinguish light and viewer and are read back") {
   const scratch::folder here;
   scratch::put(here / "a", "theta_i,phi_i,theta_o,phi_o\n40,0,-30,0\n");
   const auto read = gonio::io::read_direction_pairs(here / "a");
@@ -142,7 +142,7 @@ TEST_CASE("pairs of directions tell light and viewer apart, and come back as the
   REQUIRE(again.size() == 1);
   CHECK(again[0].wo.isApprox(read[0].wo));
 
-  // phi_d beyond pi: light and viewer change places.
+  // phi_d above pi exchanges light and viewer.
   scratch::put(here / "c", "theta_h,theta_d,phi_d\n20,10,30\n20,10,210\n");
   const auto folded = gonio::io::read_direction_pairs(here / "c");
   REQUIRE(folded.size() == 2);
@@ -170,7 +170,7 @@ TEST_CASE("bad headers are refused") {
                      {"line 1", "no columns of directions", "separated by blanks", "'????", "...'"});
 }
 
-TEST_CASE("bad lines are refused by line, column and value") {
+TEST_CASE("bad lines are refused; the error names line, column and value") {
   const auto line_refused = [](const std::string& line, std::initializer_list<std::string> words) {
     check_text_refused(header + "1,2,3,4,5,6\n\n" + line + "\n1,2,3,4,5,6\n", words);
     check_text_refused(header + "1,2,3,4,5,6\n\n" + line, {"line 4"});
@@ -220,7 +220,7 @@ TEST_CASE("rows of measurements at 90 degrees are left out and counted") {
   CHECK(notes == std::vector<std::string>{"arm.csv: 2 of 4 rows are left out: light or viewer is at 90 degrees"});
 }
 
-TEST_CASE("a direction that grazes the surface is refused as a sample, a direction and a pair, or accepted as all") {
+TEST_CASE("samples, directions and pairs accept the same grazing directions") {
   const scratch::folder here;
   const auto path = here / "grazing.csv";
   const auto accepts = [&](const auto& read) {
@@ -244,11 +244,11 @@ TEST_CASE("a direction that grazes the surface is refused as a sample, a directi
   CHECK(refused >= 1);
 }
 
-TEST_CASE("what is not a file is refused") {
+TEST_CASE("unreadable files of samples are refused") {
   scratch::check_refuses_non_files([](const auto& path) { return read_samples(path); });
 }
 
-TEST_CASE("a written set reads back") {
+TEST_CASE("a written set is read back") {
   const scratch::folder here;
   CHECK(rc::check("samples round trip", [&] {
     const auto number = [](double low, double high) {
@@ -271,7 +271,7 @@ TEST_CASE("a written set reads back") {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       RC_ASSERT((again[i].value == samples[i].value).all());
       RC_ASSERT(again[i].weight == samples[i].weight);
-      // Degrees and back cost a rounding or two.
+      // The conversion to degrees and back rounds.
       RC_ASSERT(std::abs(again[i].angles().theta_h - samples[i].angles().theta_h) < 1e-15);
       RC_ASSERT(std::abs(again[i].angles().theta_d - samples[i].angles().theta_d) < 1e-15);
       RC_ASSERT(std::abs(std::sin(again[i].angles().phi_d - samples[i].angles().phi_d)) < 1e-15);
@@ -279,7 +279,7 @@ TEST_CASE("a written set reads back") {
   }));
 }
 
-TEST_CASE("numbers are written short, and any range of samples will do") {
+TEST_CASE("numbers are written in the fewest digits, from any range of samples") {
   const scratch::folder here;
   const std::array<double, 2> readings{0.1, 0.25};
   write_samples(here / "a", readings | std::views::transform([](double r) {

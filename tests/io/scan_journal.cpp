@@ -52,7 +52,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("scan journal: what is added is there when it is read or gone on with") {
+TEST_CASE("scan journal: added readings are read back and kept when the scan resumes") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   CHECK(rc::check("readings of any size come back", [&] {
@@ -61,7 +61,7 @@ TEST_CASE("scan journal: what is added is there when it is read or gone on with"
     const auto frames = *rc::gen::inRange<std::size_t>(1, 5);
     const auto pixels = *rc::gen::inRange<Eigen::Index>(1, 5);
     const auto seed = *rc::gen::arbitrary<unsigned>();
-    for (std::size_t i = count; i-- > 0;) {  // each by another journal, in an order that is not that of the poses
+    for (std::size_t i = count; i-- > 0;) {  // each by another journal, in reverse order of the poses
       scan_journal journal(path, oak, poses(count), 4095);
       RC_ASSERT(journal.scan().measured() == count - 1 - i);
       RC_ASSERT(!journal.has(i));
@@ -83,7 +83,7 @@ TEST_CASE("scan journal: what is added is there when it is read or gone on with"
   }));
 }
 
-TEST_CASE("scan journal: wherever its last line was cut off, all the lines before it are kept, and it goes on") {
+TEST_CASE("scan journal: if the last line is truncated, earlier lines are kept and the scan resumes") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   {
@@ -105,14 +105,14 @@ TEST_CASE("scan journal: wherever its last line was cut off, all the lines befor
     journal.add(1, random_reading(2, 2, 2));
     CHECK(text_of(path) == whole);
   }
-  // A machine that lost its power may have written a line's end, but not all that is before it.
+  // After a power failure the file may have a line's end without all bytes before it.
   std::string holed = whole;
   holed.replace(holed.size() - 12, 4, 4, '\0');
   write(path, holed);
   CHECK(io::read_scan(path).measured() == 1u);
 }
 
-TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left as it is") {
+TEST_CASE("scan journal: damaged files and other scans are refused and left unchanged") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   {
@@ -163,7 +163,7 @@ TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left
   CHECK(text_of(path) == whole);
 }
 
-TEST_CASE("scan journal: a scan of something else is not gone on with, and left as it is") {
+TEST_CASE("scan journal: a scan of another subject is refused and left unchanged") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   { scan_journal(path, oak, poses(2), 4095).add(0, random_reading(1, 1, 1)); }
@@ -191,7 +191,7 @@ TEST_CASE("scan journal: a scan of something else is not gone on with, and left 
   refuses(other, "one line of text");
 }
 
-TEST_CASE("scan journal: a head that is damaged, or not whole, is refused") {
+TEST_CASE("scan journal: a damaged or incomplete header is refused") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   { scan_journal(path, oak, poses(2), 4095).add(0, random_reading(1, 1, 1)); }
@@ -213,7 +213,7 @@ TEST_CASE("scan journal: a head that is damaged, or not whole, is refused") {
   refuses("seed 3", "seed 3\nseed 3", "'seed' appears twice");
 }
 
-TEST_CASE("scan journal: a scan killed anywhere in its head is told so, and begun again by the same scan") {
+TEST_CASE("scan journal: a truncated header is refused by the reader and restarted by the same scan") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   { scan_journal(path, oak, poses(2), 4095); }
@@ -226,7 +226,7 @@ TEST_CASE("scan journal: a scan killed anywhere in its head is told so, and begu
   }
 }
 
-TEST_CASE("scan journal: poses that were added while it was measured come back, whole or not at all") {
+TEST_CASE("scan journal: poses added during the scan are read back completely or not at all") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   const direction_pair added{gonio::spherical_direction(0.7, 0.2), gonio::spherical_direction(0.4, 1.0)};
@@ -241,7 +241,7 @@ TEST_CASE("scan journal: poses that were added while it was measured come back, 
     CHECK_FALSE(journal.has(2));
   }
   const std::string with_pose = text_of(path);
-  // Cut off anywhere, it is added again.
+  // A truncated pose is added again.
   for (std::size_t size = before.size(); size < with_pose.size(); ++size) {
     write(path, with_pose.substr(0, size));
     scan_journal journal(path, oak, poses(2), 4095);
@@ -256,7 +256,7 @@ TEST_CASE("scan journal: poses that were added while it was measured come back, 
   CHECK(read.poses[2].wi == added.wi);
   CHECK(read.poses[2].wo == added.wo);
   CHECK(same(*read.readings[2], random_reading(2, 1, 2)));
-  // A plan is told from what was added to it.
+  // Added poses are not part of the plan.
   CHECK_THROWS_WITH_AS(scan_journal(path, oak, read.poses, 4095), Contains("a scan of 2 other poses, expected the 3"),
                        gonio::error);
 
@@ -272,7 +272,7 @@ TEST_CASE("scan journal: poses that were added while it was measured come back, 
   CHECK_THROWS_WITH_AS(io::read_scan(path), Contains("the checksum is wrong"), gonio::error);
 }
 
-TEST_CASE("scan journal: a scan of an earlier version is read, but not gone on with") {
+TEST_CASE("scan journal: a scan of an earlier version is read, but not resumed") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   { scan_journal(path, oak, poses(2), 4095).add(0, random_reading(1, 1, 1)); }
@@ -286,7 +286,7 @@ TEST_CASE("scan journal: a scan of an earlier version is read, but not gone on w
   CHECK(text_of(path) == text);
 }
 
-TEST_CASE("scan journal: wherever its head was cut off, it is begun again; what is no part of the head stays") {
+TEST_CASE("scan journal: a truncated header is completed; other content stays") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   { const scan_journal journal(path, oak, poses(2), 4095); }

@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of readers and writers share: a folder that vanishes, and checks that bad input is refused.
+// Common parts of the tests of readers and writers: a temporary folder, and checks that bad input is refused.
 
 #include <gonio/core/error.hpp>
 
@@ -83,7 +83,7 @@ void check_refused(Act&& act, std::initializer_list<std::string> words) {
   }
 }
 
-/// Checks that a reader refuses what is no readable file, naming the path.
+/// Checks that a reader refuses unreadable files and names the path.
 template <class Read>
 void check_refuses_non_files(Read&& read) {
   const folder here;
@@ -96,10 +96,10 @@ void check_refuses_non_files(Read&& read) {
   check_refused([&] { return read(here / "empty.file"); }, {"empty.file"});
 }
 
-/// Damages valid bytes at random, `rounds` times, and checks that `parse` accepts them or throws
-/// gonio::error; crashes and huge allocations are the sanitizers' to see.
-template <class Parse>
-void check_survives_damage(std::span<const std::byte> valid, int rounds, Parse&& parse) {
+/// Damages valid bytes at random, `rounds` times, and checks that `read` accepts them or throws gonio::error.
+/// Sanitizers detect crashes and huge allocations.
+template <class Read>
+void check_survives_damage(std::span<const std::byte> valid, int rounds, Read&& read) {
   std::mt19937 random(20240229);
   const auto below = [&](std::size_t limit) {
     return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random);
@@ -119,7 +119,7 @@ void check_survives_damage(std::span<const std::byte> valid, int rounds, Parse&&
       damaged.insert(at, 1 + below(9), static_cast<std::byte>(below(256)));
     }
     try {
-      static_cast<void>(parse(std::span<const std::byte>(damaged)));
+      static_cast<void>(read(std::span<const std::byte>(damaged)));
     } catch (const gonio::error&) {
       ++refused;
     }

@@ -20,7 +20,7 @@ gonio::io::scratch_materials scratch_of(const gonio::material_set& set, std::uin
 
 }  // namespace
 
-TEST_CASE("tables come back from memory and from the scratch file") {
+TEST_CASE("tables are read back from memory and from the scratch file") {
   const auto set = synthetic_materials(small_cells(), 7);
   const std::uint64_t table = 12 * small_cells().size();
   for (const std::uint64_t memory : {std::uint64_t{0}, table, 3 * table, 7 * table, 100 * table}) {
@@ -39,7 +39,7 @@ TEST_CASE("tables come back from memory and from the scratch file") {
   }
 }
 
-TEST_CASE("spectra come back, too, all wavelengths of a material one beside another") {
+TEST_CASE("spectra are read back, a material's wavelengths in adjacent columns") {
   const std::vector<double> wavelengths{400.0, 500.0, 600.0, 700.0};
   const auto set = synthetic_materials(small_cells(), 8);
   const std::uint64_t table = 16 * small_cells().size();
@@ -58,7 +58,7 @@ TEST_CASE("spectra come back, too, all wavelengths of a material one beside anot
   }
 }
 
-TEST_CASE("tables that cannot be held are refused") {
+TEST_CASE("tables of other cells or channels, and a missing folder, are refused") {
   gonio::io::scratch_materials none(std::filesystem::temp_directory_path());
   CHECK_THROWS_AS(none.rows(), gonio::error);
   none.append("one", gonio::brdf_table(small_cells()));
@@ -75,7 +75,7 @@ TEST_CASE("tables that cannot be held are refused") {
                        gonio::error);
 }
 
-TEST_CASE("300 columns streamed from a scratch file make the prior that is learned in memory") {
+TEST_CASE("300 columns streamed from a scratch file give the prior that is learned in memory") {
   const auto prior = gonio::io::read_prior(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior");
   std::vector<Eigen::Index> hundred(100);
   std::iota(hundred.begin(), hundred.end(), Eigen::Index{0});

@@ -49,7 +49,7 @@ std::vector<std::byte> file_of(double threshold, std::span<const std::byte> soft
 
 }  // namespace
 
-TEST_CASE("two priors come back as each would from a file of its own, and the threshold exactly") {
+TEST_CASE("two priors are read back as from separate files, and the threshold exactly") {
   const auto prior = small_split();
   const auto back = io::read_soft_specular_prior(io::write_soft_specular_prior(prior), "x");
   CHECK(back.threshold() == prior.threshold());
@@ -68,7 +68,7 @@ TEST_CASE("two priors come back as each would from a file of its own, and the th
         file_of(prior.threshold(), payload_of(prior.soft()), payload_of(prior.specular())));
 }
 
-TEST_CASE("damaged files of two priors are refused with what is wrong") {
+TEST_CASE("damaged files of two priors are refused; the error names the fault") {
   const auto whole = io::write_soft_specular_prior(small_split());
   CHECK(refusal({}).find("not a gonio soft and specular prior") != std::string::npos);
   for (const std::size_t length :
@@ -90,7 +90,7 @@ TEST_CASE("damaged files of two priors are refused with what is wrong") {
   CHECK(noticed >= 59);  // the last bits of a deflated stream are not read
 }
 
-TEST_CASE("a right checksum over impossible contents is no prior") {
+TEST_CASE("two impossible priors with a correct checksum are refused") {
   const auto prior = small_split();
   const auto soft = payload_of(prior.soft()), specular = payload_of(prior.specular());
   CHECK(refusal(file_of(0.5, soft, specular)).empty());
@@ -105,7 +105,7 @@ TEST_CASE("a right checksum over impossible contents is no prior") {
         std::string::npos);
 }
 
-TEST_CASE("files of one and of two priors are told apart") {
+TEST_CASE("files of one and of two priors are distinguished") {
   const scratch::folder folder;
   const auto two = folder / "two.prior", one = folder / "one.prior";
   io::write_soft_specular_prior(two, small_split());

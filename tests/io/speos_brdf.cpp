@@ -18,7 +18,7 @@ namespace {
 
 const std::string rows = "OPTIS - brdf surface file v9.0\r\n0\r\n# a comment\r\n9\r\ntwo\nlines\r\n1\t0\r\n";
 
-/// A table of one value over 0 to 90 degrees, each azimuth of a list.
+/// A table of one value at polar angles from 0 to 90 degrees and the listed azimuths.
 std::string flat(const std::string& value, const std::string& azimuths, int count) {
   std::string text = "10 " + std::to_string(count) + "\n\t" + azimuths + "\n";
   for (int theta = 0; theta <= 90; theta += 10) {
@@ -33,13 +33,13 @@ const std::string small = rows + "1\n1 1\n30\n550\n50\n" + flat("7", "0 90 180 2
 
 const std::string all_azimuths = "0 90 180 270 360";
 
-/// Anisotropy angles 0 and 30, of 10 and 30 degrees of incidence, and of 40.
+/// Anisotropy angle 0 with 10 and 30 degrees of incidence, 30 with 40.
 const std::string anisotropic =
     "OPTIS - Anisotropic BSDF surface file v11\n0\n\n0\n\n0\t1\t0\n1\t0\n1\n2\n0\t30\n2\n10\t30\n1\n40\n15\t0\n\n"
     "2\n400\t42\n700\t84\n" +
     flat("7", all_azimuths, 5) + flat("14", all_azimuths, 5) + flat("3.5", all_azimuths, 5);
 
-/// Each degree of a turn.
+/// All degrees from 0 to 360.
 std::string fine_azimuths() {
   std::string text;
   for (int phi = 0; phi <= 360; ++phi) text += std::to_string(phi) + " ";
@@ -59,21 +59,21 @@ std::string with(std::string text, const std::string& old, const std::string& fr
 
 }  // namespace
 
-TEST_CASE("Speos: a table that is flat reflects as a diffuser of its reflectance") {
+TEST_CASE("Speos: a flat table is a diffuser of the file's reflectance") {
   const double expected = 0.5 / std::numbers::pi;
   const auto samples = read_speos_brdf(small, "x");
   REQUIRE(samples.size() == 1 + 8 * 4);  // the normal, and 10 to 80 degrees
   CHECK(samples.channels() == gonio::channels({550.0}));
   for (std::size_t i = 0; i < samples.size(); ++i)
     CHECK(samples[i].value.x() == doctest::Approx(expected).epsilon(1e-3));
-  // Half a turn, and one that leaves out its end.
+  // Half a turn, and a turn without its end.
   CHECK(read_speos_brdf(rows + "1\n1 1\n30\n550\n50\n" + flat("7", "0 90 180", 3), "x")[3].value.x() ==
         doctest::Approx(expected).epsilon(1e-3));
   CHECK(read_speos_brdf(rows + "1\n1 1\n30\n550\n50\n" + flat("7", "0 90 180 270", 4), "x")[3].value.x() ==
         doctest::Approx(expected).epsilon(1e-3));
 }
 
-TEST_CASE("Speos: tables of intensities have the cosine in them") {
+TEST_CASE("Speos: tables of intensities include the cosine") {
   const auto samples = read_speos_brdf(with(small, "1\n1 1\n", "0\n1 1\n"), "x");
   // The integral of a constant over the hemisphere is 2 pi.
   CHECK(samples[0].value.x() == doctest::Approx(0.5 / (2.0 * std::numbers::pi)).epsilon(1e-3));
@@ -81,7 +81,7 @@ TEST_CASE("Speos: tables of intensities have the cosine in them") {
   CHECK(samples[20].value.x() * std::cos(theta) == doctest::Approx(samples[0].value.x()).epsilon(1e-6));
 }
 
-TEST_CASE("Speos: azimuth 0 is the mirror direction's side, wavelengths are spectra") {
+TEST_CASE("Speos: azimuth 0 is the mirror direction's side, wavelengths make spectra") {
   const std::string both = rows + "1\n2 2\n0 30\n450 550.5\n10\n" + flat("1", "0 180 360", 3) + "20\n" +
                            flat("3", "0 180 360", 3) + "30\n" + flat("1", "0 180 360", 3) + "40\n" +
                            flat("1", "0 180 360", 3);
@@ -100,7 +100,7 @@ TEST_CASE("Speos: one spectrum scales all tables of an anisotropic file") {
   const auto read = read_speos_brdf(anisotropic, "x");
   CHECK(read.channels() == gonio::channels({400.0, 700.0}));
   REQUIRE(read.size() == 3 * (1 + 8 * 4));
-  // A table of twice the numbers reflects twice as much; the spectrum is that of 15 degrees, between tables of 7
+  // A table of doubled values reflects twice as much. The spectrum belongs to 15 degrees, between the tables of 7
   // and 14.
   const double scale = white / 8.75;
   CHECK(read.values(0)[0] == doctest::Approx(0.42 * 7.0 * scale).epsilon(1e-3));
@@ -117,18 +117,18 @@ TEST_CASE("Speos: one spectrum scales all tables of an anisotropic file") {
   CHECK(azimuths(67).first == doctest::Approx(150.0));  // less the anisotropy angle of 30 degrees
   CHECK(azimuths(67).second == doctest::Approx(-30.0));
   CHECK(degrees(gonio::polar_angle(samples[33].directions.pair().wi)) == doctest::Approx(30.0));
-  // Below and beyond all angles of incidence the nearest counts; titles and the last line may be there.
+  // Outside all angles of incidence the nearest applies; titles and a last line are optional.
   CHECK(read_speos_brdf(with(anisotropic, "\n15\t0\n\n", "\n5 0\nReflection Spectrum\n") + "End of file\n", "x")
             .values(0)[0] == doctest::Approx(0.42 * white).epsilon(1e-3));
   CHECK(read_speos_brdf(with(anisotropic, "\n15\t0\n", "\n80 0\n"), "x").values(33)[0] ==
         doctest::Approx(0.42 * white).epsilon(1e-3));
-  // Intensities have the cosine in them.
+  // Intensities include the cosine.
   const auto flat_intensities = read_speos_brdf(with(anisotropic, "\n1\t0\n1\n", "\n1\t0\n0\n"), "x");
   CHECK(flat_intensities.values(1)[0] / flat_intensities.values(29)[0] ==
         doctest::Approx(std::cos(gonio::radians(80.0)) / std::cos(gonio::radians(10.0))));
 }
 
-TEST_CASE("Speos: what is no anisotropic file is refused") {
+TEST_CASE("Speos: bad anisotropic files are refused") {
   check_speos_refused(with(anisotropic, "0\t1\t0", "0\tup\t0"), {"line 6", "the anisotropy vector", "'up'"});
   check_speos_refused(with(anisotropic, "\n1\t0\n1\n", "\n1\t1\n1\n"), {"line 7", "transmission"});
   check_speos_refused(with(anisotropic, "\n2\n0\t30\n", "\n2e9\n0\t30\n"), {"line 9", "anisotropy angles", "'2e9'"});
@@ -143,7 +143,7 @@ TEST_CASE("Speos: what is no anisotropic file is refused") {
   check_speos_refused(anisotropic + "1\n", {"continues after its last table"});
   check_speos_refused(anisotropic.substr(0, anisotropic.size() - 5), {"ends before a value"});
   check_speos_refused(with(anisotropic, "\n2\n400", "\n20000\n400"), {"line 17", "the number of wavelengths: '20000'"});
-  // Few bytes of many wavelengths, and of many values, would be too many numbers.
+  // A small file of many wavelengths and many values would give too many numbers.
   std::string wide = "\n5000\n";
   for (int i = 1; i <= 5000; ++i) wide += std::to_string(i) + " 1\n";
   check_speos_refused(with(with(anisotropic, "\n2\n400\t42\n700\t84\n", wide), flat("7", all_azimuths, 5),
@@ -151,13 +151,13 @@ TEST_CASE("Speos: what is no anisotropic file is refused") {
                       {"has 3710 values and a spectrum of 5000 wavelengths", "too many"});
 }
 
-TEST_CASE("Speos: such a file is told by its header") {
+TEST_CASE("Speos: a file is recognised by its header") {
   CHECK(gonio::io::looks_like_speos_brdf(small));
   CHECK(gonio::io::looks_like_speos_brdf(anisotropic));
   CHECK_FALSE(gonio::io::looks_like_speos_brdf("OPTIS - Polarizer surface file v9.0\n"));
 }
 
-TEST_CASE("Speos: what is no such file is refused") {
+TEST_CASE("Speos: bad files are refused") {
   check_speos_refused("", {"ends after line 0", "seven rows"});
   check_speos_refused("a\n", {"line 1", "OPTIS - brdf surface file"});
   check_speos_refused(with(small, "\r\n0\r\n", "\r\n1\r\n"), {"line 2", "'1'", "expected 0, text"});

@@ -51,7 +51,7 @@ TEST_CASE("SSDD: the first list varies fastest, each direction is read once, and
   CHECK(samples[5].directions.pair().wo.x() < 0.0);
 }
 
-TEST_CASE("SSDD: angles about the specular direction, and half and difference angles") {
+TEST_CASE("SSDD: angles about the specular direction, and half and difference angles, are read") {
   const auto specular = read_ssdd(
       ssdd_start + brdf_block("monochrome", "specular_coordinate_system", small_lists) + numbers_to_18, "metal.ssdd");
   REQUIRE(specular.size() == 6);
@@ -71,7 +71,7 @@ TEST_CASE("SSDD: angles about the specular direction, and half and difference an
   }
 }
 
-TEST_CASE("SSDD: colours, as text and in binary, and blocks that are passed over") {
+TEST_CASE("SSDD: colours are read as text and in binary, other blocks are skipped") {
   const std::string one = "PARAM0_LIST 10\nPARAM2_LIST 20\nPARAM3_LIST 30\n";
   const auto colour_of = [&](const std::string& model, const std::string& more, const std::string& data) {
     const auto samples =
@@ -106,7 +106,7 @@ TEST_CASE("SSDD: colours, as text and in binary, and blocks that are passed over
       {"not finite"});
 }
 
-TEST_CASE("SSDD: what is no such file is refused") {
+TEST_CASE("SSDD: bad files are refused") {
   const auto with = [](const std::string& what, const std::string& by) {
     std::string text = spherical_file();
     const std::size_t at = text.find(what);

@@ -43,7 +43,7 @@ io::svbrdf_band band_of(const io::svbrdf_header& header, Eigen::Index band) {
                        {1});
 }
 
-/// Writes bands up to a number of them, and commits if these are all.
+/// Writes bands up to number `until`; commits if these are all.
 void write_bands(const scratch::fs::path& path, const io::svbrdf_header& header, Eigen::Index until) {
   svbrdf_writer writer(path, header);
   while (writer.finished() < until) writer.append(band_of(header, writer.finished()));
@@ -52,7 +52,7 @@ void write_bands(const scratch::fs::path& path, const io::svbrdf_header& header,
 
 }  // namespace
 
-TEST_CASE("map of a spatially varying BRDF: what was written is read") {
+TEST_CASE("map of a spatially varying BRDF: a written map is read back") {
   const scratch::folder here;
   const auto path = here / "map.gsv";
   const auto header = header_of(7, 5, 3);
@@ -85,7 +85,7 @@ TEST_CASE("map of a spatially varying BRDF: what was written is read") {
   scratch::check_refused([&] { return map.read_band(3); }, {"map.gsv", "no band 3"});
 }
 
-TEST_CASE("map of a spatially varying BRDF: texels that are not of the sample are told from those of tiny numbers") {
+TEST_CASE("map of a spatially varying BRDF: texels outside the sample are distinguished from tiny numbers") {
   auto found = estimates(4, 2, 1);
   found.uncertainty = Eigen::ArrayXf::Constant(4, 1e-12f);
   found.weights.setConstant(1e-12f);
@@ -100,7 +100,7 @@ TEST_CASE("map of a spatially varying BRDF: texels that are not of the sample ar
   CHECK(band.weights[18] == 0);  // another weight of this texel is not zero
 }
 
-TEST_CASE("map of a spatially varying BRDF: an interrupted job goes on, wherever it was cut, to the same bytes") {
+TEST_CASE("map of a spatially varying BRDF: an interrupted job resumes anywhere and writes the same bytes") {
   const scratch::folder here;
   const auto header = header_of(9, 4, 2);
   write_bands(here / "whole.gsv", header, header.bands());
@@ -111,7 +111,7 @@ TEST_CASE("map of a spatially varying BRDF: an interrupted job goes on, wherever
     CHECK(scratch::get(here / "cut.gsv") == whole);
     CHECK(!scratch::fs::exists(here / "cut.gsv.part"));
   }
-  // A band that is damaged is written anew, and so is all behind it.
+  // A damaged band and all later ones are written again.
   std::string damaged = whole;
   damaged[whole.size() / 2] ^= 1;
   scratch::put(here / "cut.gsv.part", damaged);
@@ -126,7 +126,7 @@ TEST_CASE("map of a spatially varying BRDF: an interrupted job goes on, wherever
   CHECK(scratch::get(here / "cut.gsv") == whole);
 }
 
-TEST_CASE("map of a spatially varying BRDF: another job's file, a second writer and an early end are refused") {
+TEST_CASE("map of a spatially varying BRDF: another job's file, a second writer and an early commit are refused") {
   const scratch::folder here;
   const auto path = here / "map.gsv";
   const auto header = header_of(6, 4, 2);
@@ -157,11 +157,11 @@ TEST_CASE("map of a spatially varying BRDF: another job's file, a second writer 
   scratch::check_refused([&] { svbrdf_writer(here / "absent" / "map.gsv", header); }, {"map.gsv.part", "No such file"});
 }
 
-TEST_CASE("map of a spatially varying BRDF: what is written before the disk is full stays") {
+TEST_CASE("map of a spatially varying BRDF: bands written before the disk is full are kept") {
   const scratch::folder here;
   const auto path = here / "map.gsv";
   const auto header = header_of(64, 32, 4);
-  // A limit of the file's size stands for a full disk: writing fails behind the third band.
+  // A limit of the file's size simulates a full disk: writing fails after the third band.
   const auto size = static_cast<rlim_t>(4 * 32 * (3 * 4 + 2) * 2 + 4);
   rlimit before{};
   REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
@@ -217,7 +217,7 @@ TEST_CASE("map of a spatially varying BRDF: damaged files and impossible headers
   CHECK_THROWS_WITH_AS((void)io::as_halves(large), doctest::Contains("outside the range of half floats"), gonio::error);
 }
 
-TEST_CASE("map of a spatially varying BRDF: a prior is told by its numbers") {
+TEST_CASE("map of a spatially varying BRDF: a prior is identified by its numbers") {
   const scratch::folder here;
   const auto prior = learn(synthetic_materials(small_cells(), 6), 4);
   const auto other = learn(synthetic_materials(small_cells(), 6, 8), 4);

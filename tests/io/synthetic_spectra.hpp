@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// A folder of some materials at wavelengths from 400 nm on, every 100.
+/// Writes materials `first` to `end` - 1 to a folder, at 400 nm, 500 nm, ...
 inline void write_synthetic_spectra(const std::filesystem::path& folder, Eigen::Index first, Eigen::Index end,
                                     Eigen::Index bands) {
   std::filesystem::create_directory(folder);

@@ -8,7 +8,7 @@
 
 using gonio::io::read_npy;
 
-TEST_CASE("a table as an array: the values of its cells in the grid's order, and no hole below the horizon") {
+TEST_CASE("an array has a table's values in the grid's order, without holes below the horizon") {
   const scratch::folder folder;
   gonio::brdf_table table(gonio::valid_cells(gonio::grid({8, 5, 6})));
   for (std::size_t i = 0; i < table.values().size(); ++i) table.values()[i] = static_cast<float>(i);
@@ -32,30 +32,30 @@ TEST_CASE("a table as an array: the values of its cells in the grid's order, and
   CHECK(below > 0u);
 }
 
-TEST_CASE("an array is read as the table that it was written of") {
+TEST_CASE("an array is read back as the same table") {
   const scratch::folder folder;
   gonio::brdf_table table(gonio::valid_cells(gonio::grid({8, 5, 6})));
   for (std::size_t i = 0; i < table.values().size(); ++i) table.values()[i] = 0.25f * static_cast<float>(i);
   gonio::io::write_table_npy(folder / "t.npy", table);
-  const auto parse = [](const auto& path) {
+  const auto read = [](const auto& path) {
     return gonio::io::read_table_npy(gonio::io::read_bytes(path), path.string());
   };
-  const gonio::brdf_table again = parse(folder / "t.npy");
+  const gonio::brdf_table again = read(folder / "t.npy");
   CHECK(again.cells() == table.cells());
   CHECK(std::ranges::equal(again.values(), table.values()));
   gonio::io::write_npy(folder / "flat.npy", xt::xtensor<float, 2>({4, 3}, 1.0f));
-  scratch::check_refused([&] { return parse(folder / "flat.npy"); }, {"flat.npy", "(4, 3)", "4 dimensions"});
+  scratch::check_refused([&] { return read(folder / "flat.npy"); }, {"flat.npy", "(4, 3)", "4 dimensions"});
   gonio::io::write_npy(folder / "two.npy", xt::xtensor<float, 4>({4, 3, 2, 2}, 1.0f));
-  scratch::check_refused([&] { return parse(folder / "two.npy"); }, {"two.npy", "(4, 3, 2, 2)", "phi_d, 3"});
+  scratch::check_refused([&] { return read(folder / "two.npy"); }, {"two.npy", "(4, 3, 2, 2)", "phi_d, 3"});
   gonio::io::write_npy(folder / "none.npy", xt::xtensor<float, 4>({0, 3, 2, 3}, 1.0f));
-  scratch::check_refused([&] { return parse(folder / "none.npy"); }, {"none.npy", "at most 4096"});
+  scratch::check_refused([&] { return read(folder / "none.npy"); }, {"none.npy", "at most 4096"});
   xt::xtensor<float, 4> wrong({4, 3, 2, 3}, 1.0f);
   wrong(0, 0, 0, 1) = std::numeric_limits<float>::infinity();
   gonio::io::write_npy(folder / "wrong.npy", wrong);
-  scratch::check_refused([&] { return parse(folder / "wrong.npy"); }, {"wrong.npy", "cell 0", "not finite"});
+  scratch::check_refused([&] { return read(folder / "wrong.npy"); }, {"wrong.npy", "cell 0", "not finite"});
 }
 
-TEST_CASE("an array has the values of a table by lower corners at the cells' centres") {
+TEST_CASE("a table with values at lower corners is interpolated to the cells' centres") {
   const scratch::folder folder;
   const gonio::grid corner({16, 12, 24}, gonio::cell_anchor::lower_corner), centre(corner.extents());
   gonio::brdf_table table{gonio::valid_cells(corner)};
@@ -66,7 +66,7 @@ TEST_CASE("an array has the values of a table by lower corners at the cells' cen
   for (int d = 0; d + 1 < 12; ++d) CHECK(array(0, d, 0, 1) == doctest::Approx(1.0 + centre.theta_d(d)).epsilon(1e-6));
 }
 
-TEST_CASE("a table as half floats takes half the room, and each value 11 bits") {
+TEST_CASE("a table in half floats takes half the space and keeps 11 bits of each value") {
   const scratch::folder folder;
   gonio::brdf_table table(gonio::valid_cells(gonio::grid({8, 5, 6})));
   for (std::size_t i = 0; i < table.values().size(); ++i) table.values()[i] = 0.1f * static_cast<float>(i);

@@ -30,7 +30,7 @@ std::string tree_file(const std::string& rank, const std::string& tree) {
   return file_of(rank, block("Reflection Front", tree));
 }
 
-/// A node of children, the first of them this, the others of one value.
+/// A node whose first child is `first` and whose other children have one value.
 std::string node(const std::string& first, int children) {
   std::string text = "{ " + first;
   for (int i = 1; i < children; ++i) text += "\n{ " + std::to_string(i) + " }";
@@ -43,7 +43,7 @@ std::string numbers(int count) {
   return text + " }";
 }
 
-/// The value at the sample whose directions are the nearest.
+/// Returns the value of the sample with the nearest directions.
 double value_near(const gonio::sample_set& samples, const gonio::direction& wi, const gonio::direction& wo) {
   double least = 1e9, value = 0.0;
   for (const gonio::sample& each : samples) {
@@ -63,7 +63,7 @@ void check_tree_refused(const std::string& text, std::initializer_list<std::stri
 
 }  // namespace
 
-TEST_CASE("tensor tree: wide cells are divided, the light of rank 3 is at azimuth 180") {
+TEST_CASE("tensor tree: wide cells are divided, and the light of rank 3 is at azimuth 180") {
   const auto samples = read_tensor_tree_xml(tree_file("3", "{ 0.25 }"), "x");
   REQUIRE(samples.size() == 4 * 8 * 8);
   for (const gonio::sample& each : samples) {
@@ -76,7 +76,7 @@ TEST_CASE("tensor tree: wide cells are divided, the light of rank 3 is at azimut
   CHECK(read_tensor_tree_xml(tree_file("4", "{ 0.25 }"), "x").size() == 8 * 8 * 8 * 8);
 }
 
-TEST_CASE("tensor tree: of a node's children the first axis is the fastest, of a grid's values the last") {
+TEST_CASE("tensor tree: the first axis is fastest among a node's children, the last among a grid's values") {
   const gonio::direction wi(-0.625, 0.0, std::sqrt(1.0 - 0.625 * 0.625));
   const auto towards = [](double x, double y) { return gonio::direction(x, y, std::sqrt(1.0 - x * x - y * y)); };
   // Children 0, 2, 4, 6 are below .5 on the first axis; 2 and 6 above it on the second, x; 4 and 6 on the third, y.
@@ -91,7 +91,7 @@ TEST_CASE("tensor tree: of a node's children the first axis is the fastest, of a
   CHECK(value_near(grid, wi, towards(0.5, 0.5)) == 3.0);
 }
 
-TEST_CASE("tensor tree: rank 4 has two squares, that of the light turned by 180 degrees") {
+TEST_CASE("tensor tree: rank 4 has two squares; the light's is turned by 180 degrees") {
   const auto towards = [](double x, double y) { return gonio::direction(x, y, std::sqrt(1.0 - x * x - y * y)); };
   const auto samples = read_tensor_tree_xml(tree_file("4", node(numbers(16), 16)), "x");
   CHECK(samples.size() == 4096);
@@ -104,7 +104,7 @@ TEST_CASE("tensor tree: rank 4 has two squares, that of the light turned by 180 
   CHECK(value_near(samples, towards(0.3, 0.3), towards(-0.6, -0.1)) == 13.0);
 }
 
-TEST_CASE("tensor tree: the map of the square keeps areas") {
+TEST_CASE("tensor tree: the map of the square preserves areas") {
   const auto samples = read_tensor_tree_xml(tree_file("3", numbers(4096)), "x");
   REQUIRE(samples.size() == 8 * 16 * 16);
   double mean = 0.0;
@@ -113,12 +113,12 @@ TEST_CASE("tensor tree: the map of the square keeps areas") {
     CHECK(samples[i].value.x() == i);
     mean += (1.0 - wo.z() * wo.z()) / 256.0;
   }
-  CHECK(mean == doctest::Approx(0.5).epsilon(0.01));  // of the squared radius in a disk
+  CHECK(mean == doctest::Approx(0.5).epsilon(0.01));  // the mean squared radius in a disk
   CHECK(degrees(gonio::azimuth(samples[0].directions.pair().wo)) == doctest::Approx(-135.0));
   CHECK(samples[0].directions.pair().wo.z() == doctest::Approx(std::sqrt(1.0 - 0.9375 * 0.9375)));
 }
 
-TEST_CASE("tensor tree: the front is read, or the back, and such a file is told") {
+TEST_CASE("tensor tree: the front is read, the back if there is no front; a file is recognised") {
   const std::string back = block("Reflection Back", "{ 7 }"), front = block("Reflection Front", "{ 3 }"),
                     through = block("Transmission Front", "{ 5 }");
   CHECK(read_tensor_tree_xml(file_of("3", through + back + front), "x")[0].value.x() == 3.0);
@@ -128,7 +128,7 @@ TEST_CASE("tensor tree: the front is read, or the back, and such a file is told"
   CHECK_FALSE(gonio::io::looks_like_tensor_tree_xml("<WindowElement><IncidentDataStructure>Columns"));
 }
 
-TEST_CASE("tensor tree: what is no such file is refused") {
+TEST_CASE("tensor tree: bad files are refused") {
   check_tree_refused("<WindowElement>\n", {"line 1", "no element <DataDefinition>"});
   check_tree_refused(file_of("5", block("Reflection Front", "{ 1 }")), {"line 3", "'TensorTree5'", "TensorTree4"});
   std::string klems = tree_file("3", "{ 1 }");

@@ -11,21 +11,21 @@ using gonio::io::in_quotes;
 using gonio::io::read_by_strtod;
 using gonio::io::read_number;
 using gonio::io::shortest;
-using gonio::io::text_place;
+using gonio::io::text_position;
 using scratch::check_refused;
 
-TEST_CASE("lines: without blanks, comments and a byte order mark, and counted") {
-  text_place place{"a file"};
+TEST_CASE("lines are trimmed and counted; comments and a byte order mark are skipped") {
+  text_position position{"a file"};
   std::vector<std::pair<Eigen::Index, std::string>> lines;
-  for_each_line("\xEF\xBB\xBFone\r\n\n# no\n  \t\n two  2 \n#\nlast", place,
-                [&](std::string_view line) { lines.emplace_back(place.line, line); });
+  for_each_line("\xEF\xBB\xBFone\r\n\n# no\n  \t\n two  2 \n#\nlast", position,
+                [&](std::string_view line) { lines.emplace_back(position.line, line); });
   const decltype(lines) expected{{1, "one"}, {5, "two  2"}, {7, "last"}};
   CHECK(lines == expected);
-  check_refused([&]() -> int { place.refuse("is wrong"); }, {"a file, line 7: is wrong"});
-  // Line ends of old Macintoshes, alone and among others.
+  check_refused([&]() -> int { position.refuse("is wrong"); }, {"a file, line 7: is wrong"});
+  // Lone carriage returns, also among other line ends.
   const auto split = [](std::string_view text) {
     std::vector<std::pair<Eigen::Index, std::string>> found;
-    text_place at{"a file"};
+    text_position at{"a file"};
     for_each_line(text, at, [&](std::string_view line) { found.emplace_back(at.line, line); });
     return found;
   };
@@ -34,18 +34,18 @@ TEST_CASE("lines: without blanks, comments and a byte order mark, and counted") 
 }
 
 TEST_CASE("numbers read back as they were written") {
-  const text_place place{"a file", 3};
-  const auto parse = [&](std::string_view field) {
-    return read_number(field, place, [] { return std::string("depth"); });
+  const text_position position{"a file", 3};
+  const auto read = [&](std::string_view field) {
+    return read_number(field, position, [] { return std::string("depth"); });
   };
-  CHECK(parse("+1.5") == 1.5);
-  CHECK(parse("-2e3") == -2000.0);
-  CHECK(rc::check([&](double value) { RC_ASSERT(parse(shortest(value)) == value); }));
+  CHECK(read("+1.5") == 1.5);
+  CHECK(read("-2e3") == -2000.0);
+  CHECK(rc::check([&](double value) { RC_ASSERT(read(shortest(value)) == value); }));
   for (const char* wrong : {"", "+", "+-1", "1,5", "1 2", "x", "0x10", "nan", "inf", "1e999"})
-    check_refused([&] { return parse(wrong); }, {"a file, line 3: depth", in_quotes(wrong)});
+    check_refused([&] { return read(wrong); }, {"a file, line 3: depth", in_quotes(wrong)});
 }
 
-TEST_CASE("numbers by strtod: the same as by from_chars, whatever the field") {
+TEST_CASE("strtod gives the same numbers as from_chars for any field") {
   const auto same = [](const std::string& field) {
     double expected = -7.0, value = -7.0;
     const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), expected);
@@ -64,7 +64,7 @@ TEST_CASE("numbers by strtod: the same as by from_chars, whatever the field") {
   CHECK(rc::check([&] { same(*any_field); }));
 }
 
-TEST_CASE("quotes: short and printable") {
+TEST_CASE("fields in quotes are short and printable") {
   CHECK(in_quotes("plain") == "'plain'");
   CHECK(in_quotes("a\x01\xff z") == "'a?? z'");
   CHECK(in_quotes(std::string(40, 'x')) == "'" + std::string(40, 'x') + "'");

@@ -25,17 +25,17 @@ TEST_CASE("TIFF: counts of 8 and 16 bits, of one channel and of three, are read"
   CHECK(grey_codes.largest == 255);
   CHECK(grey_codes.values == std::vector<std::uint16_t>{0, 0, 0, 128, 128, 128, 255, 255, 255});
 
-  // Of one channel, planes are the same.
+  // With one channel, separate planes make no difference.
   grey.more = {{284, 3, 1, 2}};
   CHECK(read_tiff(tiff_bytes::of(grey), "a.tif").values == grey_codes.values);
 
-  // A fourth channel does not count.
+  // A fourth channel is ignored.
   tiff_bytes::image with_alpha{.columns = 1, .rows = 1, .bits = 8, .channels = 4};
   with_alpha.samples = {1, 2, 3, 4};
   CHECK(read_tiff(tiff_bytes::of(with_alpha), "a.tif").values == std::vector<std::uint16_t>{1, 2, 3});
 }
 
-TEST_CASE("TIFF: the exposure time is that of the EXIF data, if there is any") {
+TEST_CASE("TIFF: the exposure time is read from the EXIF data, if there is any") {
   tiff_bytes::image picture{.columns = 1, .rows = 1, .bits = 16, .channels = 3};
   picture.samples = {1, 2, 3};
   CHECK_FALSE(read_tiff_exposure_time(tiff_bytes::of(picture), "a.tif"));
@@ -51,7 +51,7 @@ TEST_CASE("TIFF: the exposure time is that of the EXIF data, if there is any") {
                 {"a.tif", "not a TIFF"});
 }
 
-TEST_CASE("TIFF: what is not supported is refused by its name") {
+TEST_CASE("TIFF: unsupported images are refused; the error names the reason") {
   tiff_bytes::image good{.columns = 2, .rows = 1, .bits = 16, .channels = 3};
   good.samples = {1, 2, 3, 4, 5, 6};
   CHECK_NOTHROW(read_tiff(tiff_bytes::of(good), "a.tif"));
@@ -75,12 +75,12 @@ TEST_CASE("TIFF: what is not supported is refused by its name") {
   refused([](auto& p) { p.more = {{322, 3, 1, 16}, {323, 3, 1, 16}, {324, 4, 1, 8}, {325, 4, 1, 12}}; }, {"is tiled"});
 }
 
-TEST_CASE("TIFF: files that are cut or damaged are refused or read, never worse") {
+TEST_CASE("TIFF: truncated and damaged files are read or refused") {
   tiff_bytes::image picture{.columns = 5, .rows = 4, .bits = 16, .channels = 3};
   picture.samples.assign(60, 77);
   picture.exposure = {1, 60};
   const std::vector<std::byte> whole = tiff_bytes::of(picture);
-  // The last four bytes say that there is no other image.
+  // The last four bytes state that there is no other image.
   for (std::size_t size = 0; size < whole.size(); ++size) {
     if (size + 4 < whole.size()) CHECK_THROWS_AS(read_tiff(std::span(whole).first(size), "a.tif"), gonio::error);
     try {

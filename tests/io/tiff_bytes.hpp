@@ -1,5 +1,5 @@
 #pragma once
-// TIFF files that are put together by hand, so that they can be wrong.
+// TIFF files assembled by hand, so that they can be faulty.
 
 #include <algorithm>
 #include <cstddef>
@@ -22,8 +22,8 @@ struct image {
   std::uint32_t meaning = 2;  ///< photometric interpretation: RGB
   std::uint32_t compression = 1;
   std::vector<std::uint16_t> samples = {};
-  std::optional<std::pair<std::uint32_t, std::uint32_t>> exposure = {};  ///< above and below the fraction's bar
-  std::vector<tag> more = {};  ///< more tags, instead of those of their number
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> exposure = {};  ///< numerator and denominator
+  std::vector<tag> more = {};  ///< more tags; replace those of the same number
 };
 
 /// Little-endian bytes.
@@ -47,7 +47,7 @@ class writer {
   std::vector<std::byte> bytes;
 };
 
-/// The EXIF directory with an exposure time, as it stands at a place of the file.
+/// Writes the EXIF directory with an exposure time; `at` is its offset in the file.
 inline void put_exif(writer& file, const std::pair<std::uint32_t, std::uint32_t>& exposure, std::uint32_t at) {
   constexpr std::uint32_t directory = 2 + 12 + 4;
   file.put({{33434, 5, 1, at + directory}});
@@ -58,7 +58,7 @@ inline void put_exif(writer& file, const std::pair<std::uint32_t, std::uint32_t>
 [[nodiscard]] inline std::vector<std::byte> of(const image& picture) {
   writer file;
   file.put(0x002A4949, 4);
-  file.put(0, 4);  // where the directory is, known below
+  file.put(0, 4);  // the directory's offset, set below
   const std::uint32_t pixels = file.size();
   for (const std::uint16_t sample : picture.samples) file.put(sample, picture.bits == 8 ? 1 : 2);
   const std::uint32_t pixel_bytes = file.size() - pixels;
@@ -92,7 +92,7 @@ inline void put_exif(writer& file, const std::pair<std::uint32_t, std::uint32_t>
   return file.bytes;
 }
 
-/// A JPEG file that has nothing but EXIF data.
+/// A JPEG file with only EXIF data.
 [[nodiscard]] inline std::vector<std::byte> jpeg_of(
     const std::optional<std::pair<std::uint32_t, std::uint32_t>>& exposure) {
   writer exif;
@@ -102,9 +102,9 @@ inline void put_exif(writer& file, const std::pair<std::uint32_t, std::uint32_t>
   if (exposure)
     put_exif(exif, *exposure, exif.size());
   else
-    exif.put(std::vector<tag>{{34850, 3, 1, 1}});  // an exposure programme
+    exif.put(std::vector<tag>{{34850, 3, 1, 1}});  // an exposure program
   writer file;
-  file.put(0xE1FFD8FF, 4);  // start of the image, and of an application's segment
+  file.put(0xE1FFD8FF, 4);  // start of the image, and of an application segment
   const std::uint32_t length = exif.size() + 8;
   file.put(length >> 8, 1);
   file.put(length & 0xFF, 1);

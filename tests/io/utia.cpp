@@ -38,8 +38,8 @@ std::vector<std::byte> bytes_of(const std::vector<Number>& numbers) {
   return bytes;
 }
 
-/// A colour by what the database's documentation says: steps of 15 and 7.5 degrees, linear in each angle; beyond 75
-/// degrees the line through 60 and 75 continues.
+/// A colour by the database's documentation: steps of 15 and 7.5 degrees, linear in each angle; above 75 degrees the
+/// line through 60 and 75 continues.
 rgb looked_up(const direction& wi, const direction& wo) {
   const auto polar = [](const direction& w) {
     const double steps = degrees(std::acos(w.z())) / 15.0;
@@ -70,7 +70,7 @@ rgb looked_up(const direction& wi, const direction& wo) {
 
 }  // namespace
 
-TEST_CASE("UTIA: values are those of the documentation's look-up, in float64 and in float32") {
+TEST_CASE("UTIA: values agree with the documentation's look-up, in float64 and in float32") {
   const auto material = read_utia(bytes_of(planes()), "m.bin");
   const auto in_float = read_utia(bytes_of(std::vector<float>(planes().begin(), planes().end())), "m.bin");
   CHECK(material.is_anisotropic());
@@ -87,7 +87,7 @@ TEST_CASE("UTIA: values are those of the documentation's look-up, in float64 and
   CHECK((material(direction(0.6, 0.0, -0.8), direction(0, 0, 1)) == 0.0).all());
 }
 
-TEST_CASE("UTIA: golden numbers of the file's order: phi_o fastest, then theta_o, phi_i, theta_i, plane") {
+TEST_CASE("UTIA: golden numbers fix the file's order: phi_o fastest, then theta_o, phi_i, theta_i, plane") {
   std::vector<double> numbers(3 * plane);
   numbers[1 * plane + (48 * 2 + 5) * side + 48 * 3 + 7] = 8.0;  // green, 30 and 37.5 degrees, 45 and 52.5 degrees
   const auto material = read_utia(bytes_of(numbers), "m.bin");
@@ -99,7 +99,7 @@ TEST_CASE("UTIA: golden numbers of the file's order: phi_o fastest, then theta_o
   CHECK(material(at(30.0, 37.5), at(45.0, 52.5)).y() == doctest::Approx(4.0));
 }
 
-TEST_CASE("UTIA: what is read is written again, number for number") {
+TEST_CASE("UTIA: a file is read and written again number for number") {
   const auto material = read_utia(bytes_of(std::vector<float>(planes().begin(), planes().end())), "m.bin");
   const std::vector<std::byte> written = gonio::io::write_utia(material.grid());
   CHECK(written.size() == 8 * 3 * plane);
@@ -109,7 +109,7 @@ TEST_CASE("UTIA: what is read is written again, number for number") {
   check_refused([&] { return gonio::io::write_utia(other); }, {"directions of a file of UTIA's database"});
 }
 
-TEST_CASE("UTIA: other numbers of directions are read if they are given, and others refused") {
+TEST_CASE("UTIA: stated numbers of directions are read, others are refused") {
   const gonio::io::utia_directions few{.polar = 3, .polar_step = 30.0, .azimuths = 4};
   const std::vector<float> numbers(3 * 144, 0.25f);
   CHECK(read_utia(bytes_of(numbers), "m.bin", few)(direction(0.6, 0, 0.8), direction(0, 0, 1)).x() ==

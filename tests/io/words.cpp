@@ -1,38 +1,38 @@
 #include "scratch.hpp"
 #include <gonio/io/text/words.hpp>
 
-using gonio::io::text_place;
+using gonio::io::text_position;
 using gonio::io::detail::word_reader;
 using scratch::check_refused;
 
 namespace {
 
-/// A reader of a text, and where it is.
+/// A reader of a text, and its position.
 struct text_of_words {
   explicit text_of_words(std::string given) : text(std::move(given)) {}
   text_of_words(const text_of_words&) = delete;
 
   std::string text;
-  text_place place{"table.txt", 0};
-  word_reader words{text, place};
+  text_position position{"table.txt", 0};
+  word_reader words{text, position};
 };
 
 }  // namespace
 
-TEST_CASE("words: lines and comments do not matter") {
+TEST_CASE("words: line breaks and comments are ignored") {
   text_of_words given("\xEF\xBB\xBF# made up\r\none\ttwo # not three\n\n  # nor this\nfour#4 5e-1\n#");
   CHECK(given.words.peek() == "one");
   CHECK(given.words.read("a word") == "one");
   CHECK_FALSE(given.words.read_if("one"));
   CHECK(given.words.read_one_of({"one", "two"}) == 1);
-  CHECK(given.place.line == 2);
+  CHECK(given.position.line == 2);
   CHECK(given.words.read("a word") == "four#4");
   CHECK(given.words.read_number("a number") == 0.5);
   CHECK(given.words.peek().empty());
   check_refused([&] { return given.words.read("the end"); }, {"table.txt", "ends before the end"});
 }
 
-TEST_CASE("words: lists by their counts or by their lines, and what is left of a line") {
+TEST_CASE("words: lists by count or by line, and the rest of a line, are read") {
   text_of_words given("3 1 2\n3\n4 5 # degrees\nname of a thing\n\nnext");
   CHECK(given.words.read_list("angles", 0.0, 9.0) == std::vector<double>{1.0, 2.0, 3.0});
   CHECK(given.words.read_line("angles", 0.0, 9.0) == std::vector<double>{4.0, 5.0});
@@ -50,7 +50,7 @@ TEST_CASE("words: bytes follow the line of the last word") {
   CHECK(given.words.peek() == "after");
 }
 
-TEST_CASE("words: numbers out of range and counts that are none are refused") {
+TEST_CASE("words: numbers out of range and bad counts are refused") {
   const auto refuses = [](const std::string& text, std::initializer_list<std::string> why) {
     check_refused([&] { return text_of_words(text).words.read_list("angles", 0.0, 9.0); }, why);
   };

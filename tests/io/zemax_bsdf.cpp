@@ -51,7 +51,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 }  // namespace
 
-TEST_CASE("Zemax: angles are counted about the specular direction, from the normal") {
+TEST_CASE("Zemax: angles are about the specular direction; azimuth 0 points to the normal") {
   const auto samples = read_zemax_bsdf(small_file, "vinyl.bsdf");
   // Seven directions for normal incidence; at 40 degrees azimuth 180 leads to 70 and to 100 degrees, below the horizon.
   REQUIRE(samples.size() == 13);
@@ -97,7 +97,7 @@ TEST_CASE("Zemax: azimuth 360 is azimuth 0, and the sample's rotation turns both
   CHECK(samples[0].directions.pair().wo.y() == doctest::Approx(-std::sin(radians(30.0))));
 }
 
-TEST_CASE("Zemax: what is no such file is refused") {
+TEST_CASE("Zemax: bad files are refused") {
   check_zemax_refused("", {"ends before the data"});
   check_zemax_refused("# only\n", {"ends before the data"});
   check_zemax_refused("theta_i,phi_i\n", {"line 1", "'theta_i,phi_i'", "keyword"});
@@ -125,7 +125,7 @@ TEST_CASE("Zemax: what is no such file is refused") {
   scratch::check_refuses_non_files([](const auto& path) { return gonio::io::read_zemax_bsdf(path); });
 }
 
-TEST_CASE("Zemax: radial angle and azimuth of a direction come back") {
+TEST_CASE("Zemax: a direction has the given radial angle; azimuth 0 is nearest to the normal") {
   CHECK(rc::check([](unsigned a, unsigned b, unsigned c, unsigned d) {
     const auto angle = [](unsigned number, double range) { return range * (number % 1000u) / 1000.0; };
     const double theta = angle(a, 1.5), phi = angle(b, 6.0), radial = 0.01 + angle(c, 1.5), azimuth = angle(d, 6.2);
@@ -139,7 +139,7 @@ TEST_CASE("Zemax: radial angle and azimuth of a direction come back") {
   }));
 }
 
-TEST_CASE("Zemax: a measured vinyl shows signal up to one polar angle, whatever the angle of incidence") {
+TEST_CASE("Zemax: a measured vinyl shows signal up to the same polar angle for all angles of incidence") {
   // tests/workflows/example_models/test_13_planesymmetric_brdf_zemax.bsdf of github.com/ansys/optical-automation
   const scratch::fs::path path = GONIO_SHARED_DATA "/field-formats/brown_vinyl.bsdf";
   if (!scratch::fs::exists(path)) {
@@ -157,8 +157,8 @@ TEST_CASE("Zemax: a measured vinyl shows signal up to one polar angle, whatever 
   CHECK(largest.size() == 13);
   for (const auto& [theta_i, theta_o] : largest) {
     CAPTURE(theta_i);
-    // The instrument sees to 84 degrees, the grid has a direction at most a few degrees before. If azimuth 0 led away
-    // from the normal, there would be signal far below the horizon.
+    // The instrument measures up to 84 degrees, and the grid has a direction within a few degrees. If azimuth 0 pointed
+    // away from the normal, there would be signal far below the horizon.
     CHECK(theta_o > 82.0);
     CHECK(theta_o < 86.0);
   }

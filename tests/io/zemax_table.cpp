@@ -43,7 +43,7 @@ TEST_CASE("Zemax: a written table has the keywords of the format, and its angles
   CHECK(text.ends_with("DataEnd\n"));
 }
 
-TEST_CASE("Zemax: a material with rotations is written and read, and is evaluated like the original") {
+TEST_CASE("Zemax: a material with rotations is read back and evaluated like the original") {
   const zemax_resolution fine{.rotations = 36, .incidences = 18, .azimuths = 36, .radials = 48};
   const auto grid = tabulate_about_specular(brushed(), fine);
   const scratch::folder here;
@@ -62,7 +62,7 @@ TEST_CASE("Zemax: a material with rotations is written and read, and is evaluate
   MESSAGE("median ", errors[1000], ", 99 % ", errors[1980]);
   CHECK(errors[1000] < 0.03);
   CHECK(errors[1980] < 0.3);
-  // At a node the value is exact, to the six digits of the file and both orders.
+  // At a node the value is exact to the file's six digits.
   const auto [wi, wo] = gonio::model::directions_of(grid, 7777);
   REQUIRE(wo.z() > 0.0);
   CHECK((material.as_measured(wi, wo) / brushed()(wi, wo) - 1.0).abs().maxCoeff() < 2e-5);
@@ -114,7 +114,7 @@ TEST_CASE("Zemax: a value near the horizon is not darkened by the nodes below it
             doctest::Approx(0.5 / pi).epsilon(1e-4));
 }
 
-TEST_CASE("Zemax: tables that cannot be are refused") {
+TEST_CASE("Zemax: impossible tables are refused") {
   const std::string text = gonio::io::write_zemax_table(tabulate_about_specular(brushed(), small));
   std::string descending = text;
   descending.replace(descending.find("300 330\n"), 8, "330 300\n");

@@ -71,7 +71,7 @@ void check_held(const Metric& metric) {
 
 }  // namespace
 
-TEST_CASE("a metric chosen at run time gives what the one gives that it holds") {
+TEST_CASE("a metric chosen at run time gives the same as the metric that it holds") {
   SUBCASE("lin") { check_held(gonio::lin{}); }
   SUBCASE("root") { check_held(gonio::root{}); }
   SUBCASE("another root") { check_held(gonio::root{3.0}); }
@@ -82,7 +82,7 @@ TEST_CASE("a metric chosen at run time gives what the one gives that it holds") 
   }
 }
 
-TEST_CASE("a metric chosen at run time is a metric, and another may take its place") {
+TEST_CASE("a metric chosen at run time is a metric, and another may replace it") {
   static_assert(gonio::row_metric<any_metric>);
   any_metric chosen = gonio::lin{};
   CHECK(chosen.forward(3.0, std::size_t{0}) == 3.0);

@@ -1,4 +1,4 @@
-/// Fits of anisotropic lobes: slopes, rotation and colours come back.
+/// Fits of anisotropic lobes recover slopes, rotation and colours.
 
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/metric/log.hpp>
@@ -88,7 +88,7 @@ TEST_CASE("an isotropic material is fitted with equal slopes, and an albedo is b
       gonio::model::fit_model({&lambert(), &kind}, gonio::model::fit_observations(measured(isotropic, 300, 0.0)));
   const axes found(same.model.lobes()[1]);
   CHECK(found.rough / found.smooth == doctest::Approx(1.0).epsilon(1e-3));
-  // Too bright: four times what a white material reflects.
+  // Too bright: reflects four times as much as a white material.
   const analytic_brdf bright({{kind, rgb::Constant(4.0), {0.1, 0.5, 0.9, 0.7}}});
   const auto bounded = gonio::model::fit_model({&kind}, gonio::model::fit_observations(measured(bright, 200, 0.0)),
                                                gonio::log(), {.largest_albedo = 1.0});

@@ -71,7 +71,7 @@ class plain_evaluation {
     return (1.0 - f) * ((1.0 - g) * low[0] + g * low[1]) + f * ((1.0 - g) * high[0] + g * high[1]);
   }
 
-  /// Returns the interval that contains a number, and the share of it.
+  /// Returns the interval that contains a number, and the number's position in it, from 0 to 1.
   static std::pair<Eigen::Index, double> found(const std::vector<double>& among, double number) {
     Eigen::Index t = 0;
     while (t + 2 < std::ssize(among) && among[t + 1] <= number) ++t;
@@ -99,7 +99,7 @@ class plain_evaluation {
     return sum;
   }
 
-  /// A table's density, integrated over part of it, over the whole integral of that table.
+  /// Returns a half vector's position by the tables' cumulative densities: across the rows, and along the row.
   std::pair<double, double> visible_position(double theta, double phi, double across, double along) const {
     const unit_square_tables& visible = parts_.visible_normals;
     const auto row_of = [&](Eigen::Index t, double a, double end) {
@@ -124,7 +124,7 @@ const gonio::model::anisotropic_ggx& brushed() {
   return f;
 }
 
-/// Small tables of it.
+/// Small tables of `brushed()`.
 const adaptive_brdf& brushed_tables() {
   static const adaptive_brdf tables =
       tabulate_adaptively(brushed(), anisotropic_resolution{.phi_i = 25, .theta_i = 12, .values = 32, .normals = 64});

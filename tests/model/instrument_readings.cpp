@@ -24,7 +24,7 @@ double projected_solid_angle(double centre, const model::field_angles& field) {
   return (std::sin(high) - std::sin(low)) * (half + 0.5 * std::sin(2.0 * half));
 }
 
-/// The same fraction, by random directions of the source and the receptor.
+/// Estimates `reflected_share` from random directions of the source and the receptor.
 double share_by_chance(const model::ggx& f, const model::reflectometer& meter, int count) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> about_zero(-0.5, 0.5);

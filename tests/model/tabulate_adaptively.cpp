@@ -80,7 +80,7 @@ TEST_CASE("adaptive tables are exact where they asked for values") {
   CHECK(table.parts().theta_i.back() == doctest::Approx(std::numbers::pi / 2.0));
   int compared = 0;
   for (const auto& [wi, wo] : asked) {
-    // Except retroreflection, which determines the normals, and directions that stand for the horizon.
+    // Skip retroreflection, which determines the normals, and directions that stand for the horizon.
     if (wi == wo || wi.z() < 0.05 || wo.z() < 0.05) continue;
     CHECK(((table.as_measured(wi, wo) - f(wi, wo)).abs() < 1e-4 * f(wi, wo)).all());
     ++compared;

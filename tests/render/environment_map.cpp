@@ -24,7 +24,7 @@ struct white_everywhere {
   rgb operator()(const direction&) const noexcept { return rgb::Ones(); }
 };
 
-/// Smooth in every direction, with known integrals: over the sphere, those of (2 + y, 3 + x, 4 - z) are (8, 12, 16) pi.
+/// Smooth in every direction. The integrals of (2 + y, 3 + x, 4 - z) over the sphere are (8, 12, 16) pi.
 struct affine_radiance {
   rgb operator()(const direction& d) const noexcept { return {2.0 + d.y(), 3.0 + d.x(), 4.0 - d.z()}; }
 };

@@ -108,7 +108,7 @@ TEST_CASE("grid coordinates: at the ends of the angles") {
 }
 
 TEST_CASE("grid coordinates: light and viewer may be exchanged, and made longer") {
-  CHECK(rc::check("the same place", [] {
+  CHECK(rc::check("the same location", [] {
     std::mt19937_64 generator(*rc::gen::arbitrary<unsigned>());
     const auto [wi, wo] = scattered_pair(generator, *rc::gen::inRange(0, 4));
     const auto at = coordinates_of<double>(wi, wo);

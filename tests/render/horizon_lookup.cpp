@@ -18,7 +18,8 @@ double product_of_cosines(const gonio::valid_cells& cells, std::size_t cell) {
   return cosine.i * cosine.o;
 }
 
-/// A grey table that is ten times as bright in cells whose centre is nearly on the horizon, as estimates are.
+/// Returns a grey table that is `factor` times as bright in cells whose centre is nearly on the horizon, as in
+/// estimates.
 brdf_table bright_at_the_horizon(double factor) {
   const gonio::valid_cells cells;
   brdf_table table(cells);

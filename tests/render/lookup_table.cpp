@@ -27,7 +27,7 @@ const gonio::brdf_table& paint() {
   return table;
 }
 
-/// Uniform above the horizon, except every fourth, which is close to the mirror direction.
+/// Returns pairs that are uniform above the horizon, except every fourth, which is close to the mirror direction.
 std::vector<gonio::direction_pair> some_pairs(std::size_t count) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform(1e-3, 1.0);

@@ -23,7 +23,7 @@ gonio::grid any_grid() {
                      *rc::gen::element(gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner));
 }
 
-grid_coordinates<double> any_place() {
+grid_coordinates<double> any_coordinates() {
   const auto share = [] { return *rc::gen::inRange(0, 1001) / 1000.0; };
   return {share(), share(), share()};
 }
@@ -69,13 +69,13 @@ TEST_CASE("padded grid: the nearest cell, and the weights around, are those of t
     const gonio::grid grid = any_grid();
     const padded_grid padded(grid);
     const gonio::render::horizon_index index(grid);
-    const grid_coordinates<double> place = any_place();
+    const grid_coordinates<double> coordinates = any_coordinates();
     const auto itself = [&](auto... node) { return grid.linear({static_cast<int>(node)...}); };
 
-    const auto corners = index.around(place, itself);
+    const auto corners = index.around(coordinates, itself);
     std::map<Eigen::Index, double> expected;
     for (Eigen::Index k = 0; k < 8; ++k) expected[corners.number[k]] += corners.weight[k];
-    const auto found = weights_of(padded, padded.around(place));
+    const auto found = weights_of(padded, padded.around(coordinates));
     for (const auto& [cell, weight] : expected)
       RC_ASSERT(std::abs(weight - (found.count(cell) == 1 ? found.at(cell) : 0.0)) < 1e-12);
     const double sum = std::accumulate(found.begin(), found.end(), 0.0,
@@ -87,9 +87,9 @@ TEST_CASE("padded grid: the nearest cell, and the weights around, are those of t
 TEST_CASE("padded grid: the nearest cell has the largest weight of those around") {
   CHECK(rc::check([] {
     const padded_grid padded(any_grid());
-    const grid_coordinates<double> place = any_place();
-    const auto weights = weights_of(padded, padded.around(place));
-    const auto nearest = cell_of_number(padded).at(padded.nearest(place));
+    const grid_coordinates<double> coordinates = any_coordinates();
+    const auto weights = weights_of(padded, padded.around(coordinates));
+    const auto nearest = cell_of_number(padded).at(padded.nearest(coordinates));
     const auto largest = std::max_element(weights.begin(), weights.end(), [](const auto& a, const auto& b) {
                            return a.second < b.second;
                          })->second;

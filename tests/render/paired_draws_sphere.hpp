@@ -37,7 +37,7 @@ class row_by_row_light {
     reached_.push_back(sum);
   }
 
-  /// By trigonometric functions.
+  /// Uses trigonometric functions.
   [[nodiscard]] rgb radiance(const direction& d) const {
     const double scale = static_cast<double>(map_.rows()) / std::numbers::pi;
     const double polar = std::atan2(std::hypot(d.x(), d.z()), d.y());
@@ -56,11 +56,11 @@ class row_by_row_light {
     double pdf;
   };
   [[nodiscard]] lamp sample(double u1, double u2) const {
-    const double place = u1 * reached_.back();
-    const auto above = std::upper_bound(reached_.begin() + 1, reached_.end() - 1, place);
+    const double wanted = u1 * reached_.back();
+    const auto above = std::upper_bound(reached_.begin() + 1, reached_.end() - 1, wanted);
     const std::size_t number = (above - reached_.begin()) - 1;
     const std::size_t row = number / map_.columns(), column = number % map_.columns();
-    const double share = std::clamp((place - reached_[number]) / (*above - reached_[number]), 0.0, 1.0);
+    const double share = std::clamp((wanted - reached_[number]) / (*above - reached_[number]), 0.0, 1.0);
     const double step = std::numbers::pi / static_cast<double>(map_.rows());
     const double top = std::cos(static_cast<double>(row) * step),
                  bottom = std::cos(static_cast<double>(row + 1) * step);

@@ -70,7 +70,7 @@ TEST_CASE("a corrected BRDF is zero below the horizon, and where the correction 
   CHECK((one({0, 0, 1}, {0, 0, -1}) == 0.0).all());
 }
 
-TEST_CASE("it remembers what it was made of") {
+TEST_CASE("it has the parts that it was made of") {
   const auto factors = factor_table(small_cells(), 2.0f);
   const corrected_brdf fit{gonio::completed_table(synthetic_materials(small_cells(), 1).table(0)),
                            factors,

@@ -99,7 +99,7 @@ std::vector<std::pair<std::string, gonio::sample_set>> difficult_samples() {
                    }));
   all.emplace_back("tiny", changed([](auto& s, auto) { s.value *= 1e-12; }));
   all.emplace_back("huge", changed([](auto& s, auto) { s.value *= 1e8; }));
-  all.emplace_back("all in one place", changed([&](auto& s, auto) { s.directions = good[0].directions; }));
+  all.emplace_back("all at one location", changed([&](auto& s, auto) { s.directions = good[0].directions; }));
   all.emplace_back("weights of many sizes", changed([](auto& s, auto i) { s.weight = i % 2 == 0 ? 1e-9 : 1e6; }));
   all.emplace_back("one channel black", changed([](auto& s, auto) { s.value.y() = 0.0; }));
   return all;
@@ -244,7 +244,7 @@ TEST_CASE("stepping by hand is fitting, for any number of threads") {
   }
 }
 
-TEST_CASE("what a run says of its estimates is what its result has at the samples") {
+TEST_CASE("the estimates of a run are the values of its result at the samples") {
   const auto samples = world().samples(50);
   correction_run run{combination{world().others}.fit(samples), world().corrections,
                      gonio::locate_samples(small_cells(), samples)};

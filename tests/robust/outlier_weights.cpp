@@ -128,7 +128,7 @@ TEST_CASE("tukey: channels are judged by themselves, from 0 to 1, and only relat
   }));
 }
 
-TEST_CASE("tukey: a perfect fit is trusted, and what is off nonetheless is not") {
+TEST_CASE("tukey: all samples of a perfect fit have full weight, and a single deviation has none") {
   auto measured = row_in_each_channel({1, 2, 3, 4, 5});
   const auto estimated = measured;
   CHECK((gonio::tukey_weights{}.weigh(measured, estimated) == 1.0f).all());

@@ -89,7 +89,7 @@ TEST_CASE("clean samples are fitted at least as well as by the combination, and 
   CHECK(error_of(knowing.fit(robust().samples(300, {.outlier_ratio = 0.4}))) < 5e-3);
 }
 
-TEST_CASE("outliers are recognised: their share of the samples is what counts little") {
+TEST_CASE("outliers are recognised: the fraction of down-weighted samples is that of the outliers") {
   const auto fit = robust().estimator.fit(robust().samples(300, {.outlier_ratio = 0.4, .noise = 0.1}));
   // Some outliers are about right by chance, and some inliers are in the tail.
   CHECK(fit.history().back().down_weighted > 0.3);
@@ -145,7 +145,7 @@ TEST_CASE("the same bytes for any number of threads, and the seed matters only w
                                  with(2, 100, 1).fit(samples).correction().values()));
 }
 
-TEST_CASE("stepping from the start is what the fit does") {
+TEST_CASE("stepping from the start equals the fit") {
   for (const double outliers : {0.1, 0.6}) {
     const auto samples = robust().samples(400, {.outlier_ratio = outliers});
     auto run = robust().estimator.initialise(samples);
@@ -237,7 +237,7 @@ TEST_CASE("random values of random sizes, weights and numbers: finite and not ne
   }));
 }
 
-TEST_CASE("awkward samples: one, two, equal, zero, negative, tiny, large, all in one place") {
+TEST_CASE("awkward samples: one, two, equal, zero, negative, tiny, large, all at one location") {
   const auto good = robust().samples(50);
   const auto check = [&](const std::string& name, auto&& change, std::size_t count = 50) {
     CAPTURE(name);
@@ -262,7 +262,7 @@ TEST_CASE("awkward samples: one, two, equal, zero, negative, tiny, large, all in
   check("some large", [](auto& s, auto i) {
     if (i % 7 == 0) s.value *= 1e12;
   });
-  check("in one place", [&](auto& s, auto) { s.directions = good[0].directions; });
+  check("at one location", [&](auto& s, auto) { s.directions = good[0].directions; });
   check("one channel black", [](auto& s, auto) { s.value.x() = 0.0; });
 }
 
@@ -308,7 +308,7 @@ TEST_CASE("the result is zero below the horizon, and evaluates as it tabulates")
   }
 }
 
-TEST_CASE("what cannot be used is refused") {
+TEST_CASE("unusable samples, tables and materials are refused") {
   CHECK_THROWS_WITH_AS(robust().estimator.fit(gonio::sample_set{}), doctest::Contains("no samples"), gonio::error);
   auto samples = robust().samples(10);
   samples[6].value.y() = std::nan("");

@@ -18,7 +18,7 @@ const gonio::measured<gonio::log>& seven_materials() {
 }
 
 /// Returns cells, and locations between them: more than one block of rows.
-std::vector<gonio::location> mixed_places(std::size_t count, unsigned seed) {
+std::vector<gonio::location> mixed_locations(std::size_t count, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_int_distribution<std::size_t> any(0, small_cells().size() - 1);
   std::vector<gonio::location> locations;
@@ -46,11 +46,11 @@ struct random_equations {
 
 }  // namespace
 
-TEST_CASE("normal equations, moments and products are those of the gathered rows in double") {
+TEST_CASE("normal equations, right-hand sides and products are those of the gathered rows in double") {
   CHECK(rc::check([] {
     const std::size_t count = *rc::gen::inRange(1, 400);
     const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 10'000));
-    const auto locations = mixed_places(count, seed);
+    const auto locations = mixed_locations(count, seed);
     const random_equations system(count, seed + 1);
     const sampled_functions functions(seven_materials(), locations);
     RC_ASSERT(functions.size() == count);
@@ -85,7 +85,7 @@ TEST_CASE("fewer samples than functions: no weights explain more than the sample
   CHECK(rc::check([] {
     const std::size_t count = *rc::gen::inRange(1, 7);
     const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 10'000));
-    const auto locations = mixed_places(count, seed);
+    const auto locations = mixed_locations(count, seed);
     const random_equations system(count, seed + 1);
     const sampled_functions functions(seven_materials(), locations);
     const auto normal = functions.normal(0, system.weights, system.values);
@@ -103,7 +103,7 @@ TEST_CASE("fewer samples than functions: no weights explain more than the sample
 }
 
 TEST_CASE("rows of weight zero are skipped, whatever is there") {
-  const auto locations = mixed_places(300, 5);
+  const auto locations = mixed_locations(300, 5);
   random_equations system(300, 6);
   const sampled_functions functions(seven_materials(), locations);
   const auto before = functions.normal(0, system.weights, system.values);
@@ -137,7 +137,7 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
 }
 
 TEST_CASE("rows of negligible weight count as rows of weight zero, unless their values are large") {
-  const auto locations = mixed_places(2, 5);
+  const auto locations = mixed_locations(2, 5);
   const sampled_functions functions(seven_materials(), locations);
   const Eigen::Array2f weights(2.0f, 1e-6f);
   const auto both = functions.normal(1, weights, Eigen::Array2f(1.0f, 1.0f));
@@ -168,7 +168,7 @@ TEST_CASE("a row at a cell is the basis' own, and between cells the interpolated
 
 TEST_CASE("functions left out are in the equations, but not among the columns") {
   const auto fewer = seven_materials().without({"material-2"});
-  const auto locations = mixed_places(50, 3);
+  const auto locations = mixed_locations(50, 3);
   const random_equations system(50, 4);
   const sampled_functions functions(fewer, locations), all(seven_materials(), locations);
   CHECK(functions.columns() == std::vector<Eigen::Index>{0, 1, 3, 4, 5, 6});
@@ -178,7 +178,7 @@ TEST_CASE("functions left out are in the equations, but not among the columns") 
 }
 
 TEST_CASE("sampled functions outlive their basis, and are the same for any number of threads") {
-  const auto locations = mixed_places(5000, 11);
+  const auto locations = mixed_locations(5000, 11);
   const random_equations system(5000, 12);
   const auto make = [&](unsigned threads) {
     const gonio::measured basis{synthetic_materials(small_cells(), 7), gonio::log{}};
@@ -194,8 +194,8 @@ TEST_CASE("sampled functions outlive their basis, and are the same for any numbe
   CHECK(one.rhs(weights, values) == three.rhs(weights, values));
 }
 
-TEST_CASE("copies do not read the rows of what they were copied from") {
-  const auto locations = mixed_places(50, 8);
+TEST_CASE("copies do not read the rows of their originals") {
+  const auto locations = mixed_locations(50, 8);
   const Eigen::MatrixXd x = Eigen::MatrixXd::Ones(7, 3);
   auto original = std::make_unique<sampled_functions<gonio::measured<gonio::log>>>(seven_materials(), locations);
   const gonio::channel_values before = original->apply(x);
@@ -208,7 +208,7 @@ TEST_CASE("copies do not read the rows of what they were copied from") {
 
 TEST_CASE("archetype: one function for all channels") {
   const archetype::constant_basis constant{small_cells()};
-  const sampled_functions functions(constant, mixed_places(10, 1));
+  const sampled_functions functions(constant, mixed_locations(10, 1));
   const Eigen::ArrayXf weights = Eigen::ArrayXf::Constant(10, 0.5f), values = Eigen::ArrayXf::LinSpaced(10, 0, 9);
   CHECK(functions.normal(2, weights, values).gram()(0, 0) == doctest::Approx(5.0));
   const Eigen::MatrixXd rhs =

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-TEST_CASE("products that cancel keep what rounding loses") {
+TEST_CASE("products that cancel keep the digits that rounding loses") {
   gonio::compensated_sum sum(1e16);
   sum.add(1.0);
   sum.add(-1e16);

@@ -74,7 +74,7 @@ TEST_CASE("of two equal columns the penalty needs only one, and of two opposite 
   CHECK(found.weights.cwiseAbs().sum() == doctest::Approx((5.0 - 0.5) / 5.0));
 }
 
-TEST_CASE("a column that could shorten the weights takes the place of the two it is the sum of") {
+TEST_CASE("a column that is the sum of two others replaces them if this shortens the weights") {
   // Column 2 is the sum of columns 0 and 1. Reaching b = a0 + a1 by column 2 has half the penalty.
   Eigen::MatrixXd a(2, 3);
   a << 1, 0, 1, 0, 1, 1;
@@ -90,7 +90,7 @@ TEST_CASE("a column that could shorten the weights takes the place of the two it
   CHECK(warm.result()[2] == doctest::Approx((2.0 - 0.01) / 2.0));
 }
 
-TEST_CASE("penalties that mean nothing are refused") {
+TEST_CASE("invalid penalties are refused") {
   CHECK_THROWS_AS(lasso(-1.0), gonio::error);
   CHECK_THROWS_AS(lasso(std::nan("")), gonio::error);
 }

@@ -156,7 +156,7 @@ TEST_CASE("the buffer also holds more columns than blocks have rows") {
   CHECK(gonio::detail::triangular_equations(problem).rows() == 1100);
 }
 
-TEST_CASE("what the Gram matrix has lost, the rows still have: the matrix of Laeuchli") {
+TEST_CASE("the rows have digits that the Gram matrix has lost: the matrix of Laeuchli") {
   const double small = 1e-9;  // 1 + small^2 is 1
   Eigen::MatrixXd rows(3, 2);
   rows << 1, 1, small, 0, 0, small;

@@ -81,7 +81,7 @@ TEST_CASE("steps to where the function is no number are taken back") {
   CHECK(found.unknowns[0] == doctest::Approx(1e-4));
 }
 
-TEST_CASE("nothing unknown: the value, once; and a limit that comes first is told") {
+TEST_CASE("no unknowns: one evaluation; and an iteration limit that comes first is reported") {
   const auto constant = [](const Eigen::VectorXd&) -> gonio::local_parabola { return {3.0, {}, {}}; };
   const auto nothing = gonio::levenberg_marquardt(constant, Eigen::VectorXd(), {});
   CHECK(nothing.value == 3.0);

@@ -92,10 +92,10 @@ struct extended_system {
   /// Returns a solution, if one exists, by elimination with complete pivoting.
   [[nodiscard]] std::optional<extended> solve() {
     const std::size_t n = rows.size();
-    std::vector<Eigen::Index> place(n);
-    for (std::size_t i = 0; i < n; ++i) place[i] = i;
+    std::vector<Eigen::Index> order(n);
+    for (std::size_t i = 0; i < n; ++i) order[i] = i;
     std::size_t rank = 0;
-    for (; rank < n && pivot(rank, place); ++rank)
+    for (; rank < n && pivot(rank, order); ++rank)
       for (std::size_t i = rank + 1; i < n; ++i) {
         const long double factor = rows[i][rank] / rows[rank][rank];
         for (std::size_t j = rank; factor != 0 && j <= n; ++j) rows[i][j] -= factor * rows[rank][j];
@@ -105,14 +105,14 @@ struct extended_system {
     extended x(n, 0.0L);
     for (std::size_t i = rank; i-- > 0;) {
       long double sum = rows[i][n];
-      for (std::size_t j = i + 1; j < rank; ++j) sum -= rows[i][j] * x[place[j]];
-      x[place[i]] = sum / rows[i][i];
+      for (std::size_t j = i + 1; j < rank; ++j) sum -= rows[i][j] * x[order[j]];
+      x[order[i]] = sum / rows[i][i];
     }
     return x;
   }
 
  private:
-  [[nodiscard]] bool pivot(std::size_t at, std::vector<Eigen::Index>& place) {
+  [[nodiscard]] bool pivot(std::size_t at, std::vector<Eigen::Index>& order) {
     const std::size_t n = rows.size();
     std::size_t row = at, column = at;
     for (std::size_t i = at; i < n; ++i)
@@ -122,7 +122,7 @@ struct extended_system {
           column = j;
         }
     std::swap(rows[at], rows[row]);
-    std::swap(place[at], place[column]);
+    std::swap(order[at], order[column]);
     for (extended& each : rows) std::swap(each[at], each[column]);
     return std::abs(rows[at][at]) > 1e-14L;
   }

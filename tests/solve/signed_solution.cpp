@@ -119,7 +119,7 @@ TEST_CASE("sixteen families of hard problems: every solver is right from the row
   }
 }
 
-TEST_CASE("what the normal equations have lost is found in the rows: Kahan's matrix of 40 columns") {
+TEST_CASE("the rows have digits that the normal equations have lost: Kahan's matrix of 40 columns") {
   const double angle = 1.2, cosine = std::cos(angle), sine = std::sin(angle);
   random_problems::problem problem{Eigen::MatrixXd::Zero(40, 40), Eigen::VectorXd(40)};
   for (Eigen::Index row = 0; row < 40; ++row) {
@@ -214,7 +214,7 @@ TEST_CASE("numbers whose squares underflow are refused by name, and those above 
   CHECK(gonio::nnls().solve(problem(0.0, 0.0)).weights.isZero(0.0));
 }
 
-TEST_CASE("what is not finite is no optimum") {
+TEST_CASE("weights that are not finite violate the optimality conditions") {
   const normal_equations normal(Eigen::MatrixXd::Identity(2, 2), Eigen::MatrixXd::Ones(2, 1));
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, inf}) {

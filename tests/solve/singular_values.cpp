@@ -55,7 +55,7 @@ TEST_CASE("each value is good to rounding of the largest, which its square would
     }
 }
 
-TEST_CASE("ranks that are not full, zeros, and what is bidiagonal already") {
+TEST_CASE("ranks that are not full, zeros, and a bidiagonal matrix") {
   CHECK(gonio::singular_values(Eigen::MatrixXd::Zero(4, 3), "a test") == Eigen::VectorXd::Zero(3));
   CHECK(gonio::singular_values(Eigen::MatrixXd(0, 3), "a test").size() == 0);
   const Eigen::VectorXd along = Eigen::VectorXd::LinSpaced(9, -1.0, 2.0);
@@ -68,7 +68,7 @@ TEST_CASE("ranks that are not full, zeros, and what is bidiagonal already") {
   CHECK(off_from_reference(bidiagonal) < gonio::singular_value_rounding(5));
 }
 
-TEST_CASE("what is no number is refused by name") {
+TEST_CASE("numbers that are not finite are refused by name") {
   for (const double odd : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Eigen::MatrixXd a = random_matrix(4, 3, 1);
     a(2, 1) = odd;

@@ -68,7 +68,7 @@ TEST_CASE("only the lower triangle is read") {
   CHECK((gonio::decompose_symmetric(a, "a test").values - values).cwiseAbs().maxCoeff() < 1e-13);
 }
 
-TEST_CASE("what is no number is refused by name") {
+TEST_CASE("numbers that are not finite are refused by name") {
   Eigen::MatrixXd a = random_symmetric(4, 7);
   a(2, 1) = std::nan("");
   CHECK_THROWS_WITH_AS((void)gonio::decompose_symmetric(a, "the Gram matrix"),

@@ -62,7 +62,7 @@ TEST_CASE("the half angle of a cone of a solid angle") {
   CHECK_THROWS_AS(static_cast<void>(gonio::half_angle_of(-0.1)), gonio::error);
 }
 
-TEST_CASE("no cones are one direction, and what is below the horizon is left out") {
+TEST_CASE("no cones are one direction, and directions below the horizon are left out") {
   const direction_pair axes = around(20.0, 88.0);
   for (const auto& [wi, wo] : gonio::pairs_within(axes, {}, 16)) {
     CHECK((wi - axes.wi).norm() < 1e-12);

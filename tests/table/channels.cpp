@@ -21,7 +21,7 @@ void check_refused(const char* word, const std::vector<double>& wavelengths) {
 
 }  // namespace
 
-TEST_CASE("channels are colours unless they are told to be others") {
+TEST_CASE("channels are colours by default") {
   CHECK(channels().are_colours());
   CHECK(channels().size() == 3);
   CHECK((channels().colour(values) == gonio::rgb(0.1, 0.2, 0.4)).all());
@@ -55,7 +55,7 @@ TEST_CASE("the colours of wavelengths are those of the observer under a light") 
   CHECK(channels(wavelengths).name(2) == "650 nm");
 }
 
-TEST_CASE("wavelengths that nobody sees are black, and refused where a colour is needed") {
+TEST_CASE("invisible wavelengths are black, and refused where a colour is needed") {
   const channels unseen({905.0, 1100.0, 1300.0, 1550.0});
   constexpr std::array four{0.3, 0.5, 0.7, 1.1};
   CHECK_FALSE(unseen.have_colour());
@@ -72,7 +72,7 @@ TEST_CASE("wavelengths that nobody sees are black, and refused where a colour is
   gonio::require_colour(channels({550.0, 1100.0}), "half seen");
 }
 
-TEST_CASE("wavelengths that are none are refused") {
+TEST_CASE("invalid wavelengths are refused") {
   check_refused("at least one wavelength", {});
   check_refused("wavelength 2", {550.0, 450.0, 650.0});
   check_refused("wavelength 3", {450.0, 550.0, 550.0});

@@ -24,10 +24,10 @@ static_assert(gonio::channels_over<gonio::valid_cells> == 3);
 
 }  // namespace
 
-TEST_CASE("a place of a domain reads itself alone") {
+TEST_CASE("a location of a domain reads itself alone") {
   const wavelengths visible{{400.0, 500.0, 600.0}};
   for (std::size_t i = 0; i < visible.size(); ++i)
     CHECK(gonio::interpolate(
-              locate_cell(visible, i), [&](std::size_t place) { return visible.nanometres[place]; }, 0.0) ==
+              locate_cell(visible, i), [&](std::size_t location) { return visible.nanometres[location]; }, 0.0) ==
           visible.nanometres[i]);
 }

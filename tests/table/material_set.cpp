@@ -27,7 +27,7 @@ TEST_CASE("some of the materials are copied in the order asked for") {
   CHECK_THROWS_WITH_AS(static_cast<void>(set.subset({3})), "there is no material 3 among 3", gonio::error);
 }
 
-TEST_CASE("a cell is mapped value by value, and what is not finite before or after is refused by name") {
+TEST_CASE("a cell is mapped value by value, and values that are not finite before or after are refused by name") {
   const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
   const Eigen::Index count = cells.size();
   gonio::material_set set{cells, {"clay", "gold"}, gonio::cell_matrix::Ones(count, 6)};

@@ -27,7 +27,7 @@ TEST_CASE("usable samples pass, also from a laboratory's own struct") {
   CHECK_NOTHROW(gonio::require_usable(readings | std::views::transform(as_sample)));
 }
 
-TEST_CASE("what no estimator can use is refused with the sample's number") {
+TEST_CASE("unusable samples are refused with their number") {
   const sample good{{0.1, 0.2, 0.3}, rgb::Ones(), 1.0};
   const auto refused = [&](const sample& bad, const char* words) {
     CHECK_THROWS_WITH_AS(gonio::require_usable(sample_set{good, bad, good}), doctest::Contains("sample 2"),

@@ -50,7 +50,7 @@ TEST_CASE("colours of a spectral table are those of its spectra, for any number 
   CHECK((laser.colours().at(0) == 0.5).all());
 }
 
-TEST_CASE("spectral tables that are none are refused") {
+TEST_CASE("invalid spectral tables are refused") {
   CHECK_THROWS_WITH_AS(spectral_table(cells(), {500.0, 500.0}), doctest::Contains("wavelength 2"), gonio::error);
   CHECK_THROWS_WITH_AS(spectral_table(cells(), {}), doctest::Contains("at least one"), gonio::error);
   CHECK_THROWS_WITH_AS(spectral_table(cells(), {400.0, 500.0}, gonio::cell_matrix::Zero(cells().size(), 3)),

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-TEST_CASE("a tensor view writes through, a dense tensor copies and marks what lies below the horizon") {
+TEST_CASE("a tensor view writes through, a dense tensor copies and marks cells below the horizon") {
   gonio::brdf_table table(gonio::valid_cells(gonio::grid({6, 5, 8})));
   auto view = gonio::tensor_view(table);
   view(4, 1) = 2.5f;

@@ -70,7 +70,7 @@ TEST_CASE("upsampling is interpolation at each cell, and visits each cell once")
   for (const auto& to : targets()) check_mean<weighted_mean::arithmetic>(to, 3.0);
 }
 
-TEST_CASE("a geometric mean is the exponential of what is interpolated") {
+TEST_CASE("a geometric mean is the exponential of the interpolated field") {
   for (const auto& to : targets()) check_mean<weighted_mean::geometric>(to, 3.0);
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("a geometric mean of the largest and the smallest exponentials is as e
   for (const auto& to : targets()) check_mean<weighted_mean::geometric>(to, 42.0);
 }
 
-TEST_CASE("a geometric mean beyond what a progression holds is that of each value, up to infinity") {
+TEST_CASE("a geometric mean that a progression cannot hold is computed for each value, up to infinity") {
   for (const double size : {50.0, 80.0, 200.0, 1e30}) {
     // Values alternate strongly from cell to cell, so that ratios of neighbours exceed the range of float.
     const auto field = [&](Eigen::Index cell) { return static_cast<float>(cell % 2 == 0 ? size : -size); };

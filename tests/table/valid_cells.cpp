@@ -24,7 +24,7 @@ TEST_CASE("the valid cells of MERL's grid are the reference's") {
   CHECK(crc32(0, mask.data(), static_cast<unsigned>(mask.size())) == golden["crc32"].get<unsigned long>());
 }
 
-TEST_CASE("a row's first valid cell is told with its linear index") {
+TEST_CASE("the linear index of a row's first valid cell") {
   const valid_cells cells(gonio::grid({20, 15, 24}));
   for (Eigen::Index row = 0; row < 20 * 15; ++row) {
     const Eigen::Index first = cells.row_begin(row);

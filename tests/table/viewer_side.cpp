@@ -43,7 +43,7 @@ TEST_CASE("samples that say nothing of a side do not count") {
   CHECK(brightness_towards_light(samples_of({{30, 50, 0, 6}, {30, 30, 180, 2}})) == 0.0);   // far from the light
 }
 
-TEST_CASE("viewers are turned about the normal, and what was measured stays") {
+TEST_CASE("viewers are turned about the normal, and measured values stay") {
   sample_set scan(gonio::channels({450.0, 550.0}));
   const gonio::direction_pair pair{gonio::spherical_direction(0.5, 0.2), gonio::spherical_direction(0.7, 1.0)};
   scan.add(pair, std::array{0.1, 0.2}, 0.5, {0.01, 0.02});

@@ -29,7 +29,7 @@ void sort(std::vector<cell_pair>& pairs) {
   std::ranges::sort(pairs, {}, [](const cell_pair& pair) { return std::tuple(pair.value, pair.cells); });
 }
 
-/// Returns the cells nearest to those of a coarse grid, with `step` degrees in theta_d and phi_d.
+/// Returns the cells nearest to the cells of a coarse grid, with `step` degrees in theta_d and phi_d.
 std::vector<Eigen::Index> coarse_cells(const gonio::valid_cells& cells, double step) {
   const auto along = [&](double all) { return std::max(1, static_cast<int>(std::lround(all / step))); };
   const gonio::valid_cells coarse(gonio::grid({along(90.0), along(90.0), along(180.0)}));
@@ -79,7 +79,7 @@ std::vector<cell_pair> best_pairs(const std::vector<Eigen::Index>& cells, double
   return all;
 }
 
-/// Keep all pairs up to this condition number.
+/// The condition number up to which all pairs are kept.
 constexpr double good_condition = 1.01;
 
 /// Returns pairs ordered by the condition number of the first k components: the best pair of each cell, and all pairs
@@ -181,7 +181,7 @@ std::vector<json> reached(const std::string& name, const std::vector<cell_pair>&
 }
 
 /// Adds the interquartile ranges of the directions where the searches end.
-void add_places(table& shown, const std::string& name, const laboratory& lab, const std::vector<cell_pair>& found) {
+void add_ends(table& shown, const std::string& name, const laboratory& lab, const std::vector<cell_pair>& found) {
   for (const std::size_t which : {std::size_t{0}, std::size_t{1}}) {
     std::vector<double> heights, differences;
     for (const cell_pair& pair : found) {
@@ -292,13 +292,13 @@ tables nielsen_6(const options& given, const gonio::progress& listener) {
                 reached("condition: to the best neighbour", once, by_condition.front().value, 1.0),
                 reached("condition: from the best of 500", guessed, by_condition.front().value, 1.0),
                 reached("E: from the best of 500", expected, by_error.front().value, 1.0 / lab.expected(1.0))}};
-  table places{"Where they end: the middle half of " + repeated + ", in degrees",
-               {{"search"}, {"direction"}, {"theta_h from", 1}, {"to", 1}, {"theta_d from", 1}, {"to", 1}}};
-  add_places(places, "condition: along the gradient", lab, along);
-  add_places(places, "condition: to the best neighbour", lab, once);
-  add_places(places, "condition: from the best of 500", lab, guessed);
-  add_places(places, "E: from the best of 500", lab, expected);
-  return {std::move(best), std::move(shares), std::move(places), errors_by_condition(lab, given, by_condition),
+  table ends{"Where they end: the middle half of " + repeated + ", in degrees",
+             {{"search"}, {"direction"}, {"theta_h from", 1}, {"to", 1}, {"theta_d from", 1}, {"to", 1}}};
+  add_ends(ends, "condition: along the gradient", lab, along);
+  add_ends(ends, "condition: to the best neighbour", lab, once);
+  add_ends(ends, "condition: from the best of 500", lab, guessed);
+  add_ends(ends, "E: from the best of 500", lab, expected);
+  return {std::move(best), std::move(shares), std::move(ends), errors_by_condition(lab, given, by_condition),
           pairs_by_components(lab, given, cells)};
 }
 

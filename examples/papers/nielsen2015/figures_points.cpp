@@ -189,7 +189,7 @@ tables nielsen_9(const options& given, const gonio::progress& listener) {
 }
 
 tables xu_19(const options& given, const gonio::progress& listener) {
-  // The curves are those of 2015; Xu et al. compare two of them. Count the points that one criterion saves.
+  // The curves are from 2015; Xu et al. compare two of them. Count the points that one criterion saves.
   const laboratory lab = open_laboratory(given, listener);
   const table points = against_points(lab, given, listener);
   table saved{

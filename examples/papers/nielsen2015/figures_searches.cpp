@@ -1,5 +1,5 @@
-/// Nielsen et al. 2015, Fig. 5: their search along the gradient, our search to the best neighbour and that of Xu et al.
-/// 2016, each compared with random swaps in the same time.
+/// Nielsen et al. 2015, Fig. 5: their search along the gradient, our search to the best neighbour and the search of Xu
+/// et al. 2016, each compared with random swaps in the same time.
 
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/gradient_descent.hpp"
@@ -93,7 +93,7 @@ std::vector<Eigen::Index> race_counts(const options& given) {
   return counts;
 }
 
-/// Compares searches that use the first k components. The errors are those of reconstructions with all components.
+/// Compares searches that use the first k components. The errors are for reconstructions with all components.
 table race_by_condition(const laboratory& lab, const options& given, Eigen::Index k, const gonio::progress& listener) {
   table shown{"By condition number of the first " + std::to_string(k) +
                   " components (the figure's): reached from "

@@ -61,8 +61,8 @@ struct noell_setting {
   }
 };
 
-/// Returns a row's cells: mean (with its range over several seeds), median, worst, and range of the peak ratio. In
-/// `results`, those of the first seed come first, then those of the second, and so on.
+/// Returns a row's cells: mean (with its range over several seeds), median, worst, and range of the peak ratio.
+/// `results` has all results of the first seed, then of the second, and so on.
 [[nodiscard]] std::string summary(const std::vector<json>& results, const std::string& measure, std::size_t seeds) {
   std::vector<double> values, peaks, means;
   for (const json& result : results) {

@@ -14,7 +14,7 @@
 #include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/images/image.hpp>
-#include <gonio/metric/place_free.hpp>
+#include <gonio/metric/location_free.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/solve/least_squares.hpp>
 
@@ -33,7 +33,7 @@ namespace papers {
 namespace {
 
 /// ln(1 + scale rho): the paper's metric with reflectance in a unit other than sr^-1.
-struct scaled_log : gonio::place_free_metric<scaled_log> {
+struct scaled_log : gonio::location_free_metric<scaled_log> {
   double scale = 1.0;
 
   explicit scaled_log(double unit) : scale(unit) {}

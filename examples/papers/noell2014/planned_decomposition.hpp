@@ -50,7 +50,7 @@ class planned_decomposition {
     const auto count = std::ssize(plan_->locations);
     if (values.cols() != count)
       gonio::refuse({"there are ", values.cols(), " measurements at ", count, " planned locations"});
-    if (!values.isFinite().all()) gonio::refuse("a measurement at a planned place is not finite");
+    if (!values.isFinite().all()) gonio::refuse("a measurement at a planned location is not finite");
     const gonio::channel_values right_hand_sides =
         gonio::map_values(materials_.metric(), values, plan_->locations, threads_);
     const Eigen::MatrixXd rhs = plan_->functions.rhs(gonio::channel_values::Ones(3, count), right_hand_sides);

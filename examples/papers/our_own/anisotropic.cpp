@@ -78,8 +78,8 @@ struct lobe_axes {
   }
 };
 
-/// Spheres whose grooves run about the vertical axis, in the environment of a formula. The truth has the mean luminance
-/// of middle grey; colours are clipped to what a display shows.
+/// Spheres whose grooves run about the vertical axis, in the formula environment. The truth has the mean luminance of
+/// middle grey; colours are clipped as by a display.
 class turned_spheres {
  public:
   explicit turned_spheres(gonio::thread_count threads) : light_(60, 48), threads_(threads) {}

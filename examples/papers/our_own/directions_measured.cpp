@@ -80,17 +80,17 @@ double eta_for(const directions_options& given, const gonio::log_relative_pca& p
                              : number_of_eta(given.eta);
 }
 
-json judge_table(const directions_options& given, const benchmark_setup& shop, const std::string& name,
+json judge_table(const directions_options& given, const benchmark_setup& setup, const std::string& name,
                  const gonio::brdf_table& truth, const std::vector<std::vector<Eigen::Index>>& drawn) {
   std::vector<material_result> results;
   double mean_eta = 0.0;
   for (const auto& cells : drawn) {
     const gonio::sample_set samples = gonio::sample_table(truth, cells);
-    const double eta = eta_for(given, shop.prior, samples);
+    const double eta = eta_for(given, setup.prior, samples);
     mean_eta += eta / static_cast<double>(drawn.size());
     const auto estimate =
-        gonio::decomposition{shop.prior, gonio::tikhonov{eta}}.fit(samples).tabulate(truth.cells(), given.threads);
-    results.push_back({name, gonio::compare(estimate, truth, shop.prior.metric(), shop.appearance, given.threads)});
+        gonio::decomposition{setup.prior, gonio::tikhonov{eta}}.fit(samples).tabulate(truth.cells(), given.threads);
+    results.push_back({name, gonio::compare(estimate, truth, setup.prior.metric(), setup.appearance, given.threads)});
   }
   json means = mean_errors(results);
   means["eta"] = mean_eta;
@@ -157,7 +157,7 @@ std::vector<stand_ins> samples_of(const directions_options& given, const gonio::
   return drawn;
 }
 
-json judge_samples(const directions_options& given, const benchmark_setup& shop, const gonio::sample_set& all,
+json judge_samples(const directions_options& given, const benchmark_setup& setup, const gonio::sample_set& all,
                    const std::vector<stand_ins>& drawn) {
   const auto times = static_cast<double>(drawn.size());
   double in_logarithms = 0.0, weighted = 0.0, distance = 0.0, farthest = 0.0, mean_eta = 0.0;
@@ -165,9 +165,9 @@ json judge_samples(const directions_options& given, const benchmark_setup& shop,
     gonio::sample_set some, others;
     for (std::size_t s = 0; s < all.size(); ++s)
       (std::ranges::find(used.samples, s) != used.samples.end() ? some : others).push_back(all[s]);
-    const double eta = eta_for(given, shop.prior, some);
+    const double eta = eta_for(given, setup.prior, some);
     mean_eta += eta / times;
-    const auto fit = gonio::decomposition{shop.prior, gonio::tikhonov{eta}}.fit(some);
+    const auto fit = gonio::decomposition{setup.prior, gonio::tikhonov{eta}}.fit(some);
     logarithmic_error log_error;
     cosine_weighted_error cosine_error;
     for (const gonio::sample& other : others) {
@@ -206,7 +206,7 @@ class experiment {
         if (!truth) truth.emplace(gonio::io::read_merl_any(path));
         const auto drawn = cells_of(given_, truth->cells(), set, count);
         if (drawn.empty()) return {};
-        return judge_table(given_, shop_for(truth->cells()), name, *truth, drawn);
+        return judge_table(given_, setup_for(truth->cells()), name, *truth, drawn);
       });
     }
     return rows;
@@ -222,7 +222,7 @@ class experiment {
                         std::to_string(count));
         const auto drawn = samples_of(given_, all, set, count);
         if (drawn.empty()) return {};
-        return judge_samples(given_, shop_for(gonio::valid_cells()), all, drawn);
+        return judge_samples(given_, setup_for(gonio::valid_cells()), all, drawn);
       });
     }
     return rows;
@@ -244,19 +244,19 @@ class experiment {
       }
   }
 
-  const benchmark_setup& shop_for(const gonio::valid_cells& cells) {
-    if (!shop_ || !(shop_->prior.cells() == cells)) {
-      shop_.reset();  // two would take twice the memory
-      shop_.emplace(open_benchmark_setup(given_, cells, bar_.listener()));
+  const benchmark_setup& setup_for(const gonio::valid_cells& cells) {
+    if (!setup_ || !(setup_->prior.cells() == cells)) {
+      setup_.reset();  // two would take twice the memory
+      setup_.emplace(open_benchmark_setup(given_, cells, bar_.listener()));
     }
-    return *shop_;
+    return *setup_;
   }
 
   const directions_options& given_;
   progress_bar& bar_;
   resumable_results results_;
-  std::size_t turn_ = 0;                 ///< one per material
-  std::optional<benchmark_setup> shop_;  // on the cells of the last table, which the next table often shares
+  std::size_t turn_ = 0;                  ///< one per material
+  std::optional<benchmark_setup> setup_;  // on the cells of the last table, which the next table often shares
 };
 
 /// Returns the means over materials for each number and set, in the order of the rows.

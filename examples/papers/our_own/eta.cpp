@@ -120,10 +120,10 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
   };
   const auto gcv = gonio::eta_criterion::generalised_cross_validation;
   // Compute the penalties that depend only on the locations.
-  const gonio::sample_set places = gonio::sample_table(truths.tables[0], cells);
-  const double stated = gonio::eta_of_noise(prior, places, noise, options.threads);
-  const gonio::eta_range plausible = gonio::plausible_etas(prior, places, 0.3, options.threads);
-  const reconstruction_error error(prior, truths, equations_of(places).rows());
+  const gonio::sample_set at_cells = gonio::sample_table(truths.tables[0], cells);
+  const double stated = gonio::eta_of_noise(prior, at_cells, noise, options.threads);
+  const gonio::eta_range plausible = gonio::plausible_etas(prior, at_cells, 0.3, options.threads);
+  const reconstruction_error error(prior, truths, equations_of(at_cells).rows());
 
   // Reconstruct each material with every penalty and with the choice of each rule.
   const Eigen::VectorXd etas = gonio::geometric_sequence(1e-3, 1e5, 97);

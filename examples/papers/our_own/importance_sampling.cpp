@@ -60,7 +60,7 @@ struct variances {
 
 /// Returns the variances at a point of the sphere. The variance of f L cos / pdf is the integral of its square times
 /// pdf, minus its squared mean. The environment draws half of the directions and the material the other half; both
-/// variances use the same directions. Without the directions from the environment, those of the material could miss a
+/// variances use the same directions. Without the environment's directions, the material's directions could miss a
 /// small lamp, and chance would dominate the table.
 variances variances_at(const gonio::render::surface_frame& surface, const sampled_material& f,
                        const gonio::render::environment_sampler& light, std::size_t draws, std::mt19937_64& generator) {

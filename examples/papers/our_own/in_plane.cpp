@@ -1,5 +1,5 @@
-/// gonio-papers in-plane: what scans in the plane of incidence, the most common measurements, reveal about the rest of
-/// a material, and which further directions help.
+/// gonio-papers in-plane: how much scans in the plane of incidence, the most common measurements, reveal about the rest
+/// of a material, and which further directions help.
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"

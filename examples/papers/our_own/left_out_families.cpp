@@ -1,5 +1,6 @@
 #include "left_out_families.hpp"
 
+#include "papers/our_own/random_materials.hpp"
 #include "tool/options/threads_option.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -29,8 +30,17 @@ material_library::material_library(const std::vector<std::filesystem::path>& net
   sets_.push_back(std::move(set));
 }
 
-gonio::log_relative_pca material_library::prior_without(const std::string& family, Eigen::Index components) const {
+gonio::log_relative_pca material_library::prior_without(const std::string& family, Eigen::Index components,
+                                                        Eigen::Index random_materials) const {
   auto set = materials(all(), [&](const std::string& name) { return gonio::material_family(name) != family; });
+  const Eigen::Index known = set.values.cols();
+  set.values.conservativeResize(Eigen::NoChange, known + 3 * random_materials);
+  for (Eigen::Index i = 0; i < random_materials; ++i) {
+    const gonio::brdf_table table = random_material(static_cast<std::uint64_t>(i), cells_, threads_);
+    set.values.middleCols(known + 3 * i, 3) =
+        Eigen::Map<const gonio::cell_matrix>(table.values().data(), set.values.rows(), 3);
+    set.names.push_back("random-" + std::to_string(i));
+  }
   const auto metric = gonio::log_relative::to_median_of(set, threads_);
   return gonio::learn_pca(std::move(set), metric, components, threads_);
 }

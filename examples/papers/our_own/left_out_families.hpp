@@ -56,8 +56,10 @@ class material_library {
   }
   [[nodiscard]] Eigen::Index all() const noexcept { return std::ssize(sets_); }
 
-  /// Returns the principal components of all materials outside a family, under log_relative to their median.
-  [[nodiscard]] gonio::log_relative_pca prior_without(const std::string& family, Eigen::Index components) const;
+  /// Returns the principal components of all materials outside a family, and of some random_material's, under
+  /// log_relative to the median of all.
+  [[nodiscard]] gonio::log_relative_pca prior_without(const std::string& family, Eigen::Index components,
+                                                      Eigen::Index random_materials = 0) const;
 
  private:
   gonio::valid_cells cells_;

@@ -8,7 +8,7 @@ gonio=${GONIO:-gonio}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# error ENVIRONMENT ROWS SIZE [--distance RADII]: what the tool says of the map.
+# error ENVIRONMENT ROWS SIZE [--distance RADII]: prints the map's error as the tool reports it.
 error() {
   environment=$1 rows=$2 size=$3
   shift 3

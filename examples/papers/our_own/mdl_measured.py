@@ -43,7 +43,7 @@ using Float32_3 = math::Vector<Float32, 3>;
 }  // namespace mi
 #define M_ONE_OVER_PI 0.318309886183790671538
 
-/// A file as the loader asks for it.
+/// A file with the interface that the loader needs.
 class file_reader : public mi::base::Interface_implement<mi::neuraylib::IReader> {
  public:
   explicit file_reader(const char* path) : file_(std::fopen(path, "rb")) {}
@@ -96,7 +96,7 @@ double quantile(std::vector<double> values, double share) {
   return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
-/// The share of the light from one direction that is reflected, of the brightest channel.
+/// Returns the albedo of the brightest channel for light from one direction.
 double albedo(const gonio::model::polar_grid_brdf& f, double theta_i) {
   constexpr int steps = 360;
   gonio::rgb sum = gonio::rgb::Zero();
@@ -117,7 +117,7 @@ int main(int, char** arguments) {
   theirs.prepare_mbsdfs_part(reflection_part, reflection.get());
   const gonio::model::polar_grid_brdf ours = gonio::io::read_mbsdf(arguments[1]).reflection;
   const unsigned steps = reflection->get_resolution_theta(), around = reflection->get_resolution_phi();
-  // Away from the borders, where half a cell earlier there is none.
+  // Stay away from the borders: there is no cell half a cell before them.
   const double margin = 1.0 / steps;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(margin, 1.0 - margin);

@@ -9,7 +9,7 @@ gonio=${GONIO:-gonio}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# error ENVIRONMENT OUTLINE ARGUMENT...: what the tool says of the map.
+# error ENVIRONMENT OUTLINE ARGUMENT...: prints the map's error as the tool reports it.
 error() {
   environment=$1 outline=$2
   shift 2

@@ -168,7 +168,7 @@ def sphere_difference(table, bsdf, environment, scratch, size=32, white=0.4):
     border = 8
     image = np.array(mi.Bitmap(str(scratch / "own.png")))[border:-border, border:-border, :3]
     ours = linear(image.astype(float))
-    # The middle of gonio's image is behind the sphere, that of Mitsuba's behind the camera.
+    # The middle of gonio's image is behind the sphere, the middle of Mitsuba's behind the camera.
     pixels = np.array(mi.Bitmap(environment).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32))
     light = {"type": "envmap", "bitmap": mi.Bitmap(np.ascontiguousarray(np.roll(pixels, pixels.shape[1] // 2, axis=1)))}
     white_image = np.array(mi.render(scene_of({"type": "diffuse", "reflectance": {"type": "rgb", "value": 1.0}}, light,

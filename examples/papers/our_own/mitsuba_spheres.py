@@ -57,7 +57,7 @@ def main():
     parser.add_argument("-o", "--output", required=True, help="picture of all spheres (.png)")
     arguments = parser.parse_args()
     environment = gonio.read_hdr(arguments.environment)
-    # The middle of gonio's image is behind the sphere, that of Mitsuba's behind the camera.
+    # The middle of gonio's image is behind the sphere, the middle of Mitsuba's behind the camera.
     bitmap = mi.Bitmap(np.ascontiguousarray(np.roll(environment, environment.shape[1] // 2, axis=1)))
     lightings = {
         "two lights": Lighting([{"type": "directional", "direction": to, "irradiance": 1.0} for to in LIGHTS], 256,

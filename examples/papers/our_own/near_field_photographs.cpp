@@ -167,7 +167,7 @@ class near_field_photographs_experiment : photograph_experiment {
       const gonio::capture::near_field_setup truth = laboratory_.true_setup(stated, seed);
       taken.perfect.push_back(near_field_samples(laboratory_.radiance(brdf, stated), stated));
       taken.misplaced.push_back(near_field_samples(laboratory_.radiance(brdf, truth), stated));
-      // The white reference takes the place of the sample.
+      // The white reference replaces the sample.
       constexpr double reflectance = near_field_laboratory::reflectance_of_white;
       const auto merged = laboratory_.photograph(brdf, truth, seed + 1);
       const auto white = laboratory_.photograph(lab::white_material{reflectance}, truth, seed + 2);

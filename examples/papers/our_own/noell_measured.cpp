@@ -109,26 +109,26 @@ void print_means(const measured_options& given, const json& rows) {
 }
 
 /// Compares estimates with the whole table.
-void judge_table(const measured_options& given, const benchmark_setup& shop, const std::string& name,
+void judge_table(const measured_options& given, const benchmark_setup& setup, const std::string& name,
                  const gonio::brdf_table& truth, json& rows) {
   const std::size_t count = gonio::share_of(truth.cells().size(), given.data_ratio);
   const auto cells = gonio::random_cells(truth.cells(), count, given.seed);
   for (const double outlier_ratio : given.outlier_ratios)
-    shop.reconstruct(gonio::sample_table(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed), outlier_ratio,
-                     [&](const std::string& method, const auto& fit) {
-                       const gonio::brdf_table estimate = fit.tabulate(truth.cells(), shop.threads);
-                       logarithmic_error error;
-                       for (Eigen::Index cell = 0; cell < truth.cells().size(); ++cell)
-                         error.add(estimate.at(cell), truth.at(cell));
-                       json result = row(name, method, count, outlier_ratio);
-                       result["log_error"] = error.value();
-                       result.update(shop.measures.judge(estimate, truth));
-                       rows.push_back(std::move(result));
-                     });
+    setup.reconstruct(gonio::sample_table(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed), outlier_ratio,
+                      [&](const std::string& method, const auto& fit) {
+                        const gonio::brdf_table estimate = fit.tabulate(truth.cells(), setup.threads);
+                        logarithmic_error error;
+                        for (Eigen::Index cell = 0; cell < truth.cells().size(); ++cell)
+                          error.add(estimate.at(cell), truth.at(cell));
+                        json result = row(name, method, count, outlier_ratio);
+                        result["log_error"] = error.value();
+                        result.update(setup.measures.judge(estimate, truth));
+                        rows.push_back(std::move(result));
+                      });
 }
 
 /// Compares estimates with the measurements that were not used.
-void judge_samples(const measured_options& given, const benchmark_setup& shop, const std::filesystem::path& path,
+void judge_samples(const measured_options& given, const benchmark_setup& setup, const std::filesystem::path& path,
                    json& rows) {
   const gonio::sample_set all = read_measurements(path);
   const std::size_t count = gonio::share_of(all.size(), given.data_ratio);
@@ -138,7 +138,7 @@ void judge_samples(const measured_options& given, const benchmark_setup& shop, c
   for (const double outlier_ratio : given.outlier_ratios) {
     const auto samples = gonio::corrupt(some, {.outlier_ratio = outlier_ratio}, given.seed,
                                         [&](std::mt19937_64& generator) { return all[any_sample(generator)].value; });
-    shop.reconstruct(samples, outlier_ratio, [&](const std::string& method, const auto& fit) {
+    setup.reconstruct(samples, outlier_ratio, [&](const std::string& method, const auto& fit) {
       logarithmic_error error;
       for (const gonio::sample& other : others) {
         const auto [wi, wo] = other.directions.pair();
@@ -176,25 +176,25 @@ void run(const measured_options& given) {
     gonio::refuse("there is nothing to reconstruct: give --tables or --samples");
   progress_bar bar;
   json rows = json::array();
-  std::unique_ptr<benchmark_setup> shop;  // on the cells of the last table, which the next table often shares
-  const auto shop_for = [&](const gonio::valid_cells& cells) -> const benchmark_setup& {
-    if (!shop || !(shop->materials.cells() == cells)) {
-      shop.reset();  // two would take twice the memory
-      shop = std::make_unique<benchmark_setup>(given, cells, bar.listener());
+  std::unique_ptr<benchmark_setup> setup;  // on the cells of the last table, which the next table often shares
+  const auto setup_for = [&](const gonio::valid_cells& cells) -> const benchmark_setup& {
+    if (!setup || !(setup->materials.cells() == cells)) {
+      setup.reset();  // two would take twice the memory
+      setup = std::make_unique<benchmark_setup>(given, cells, bar.listener());
     }
-    return *shop;
+    return *setup;
   };
   if (!given.tables.empty()) {
     const auto files = gonio::io::list_merl_directory(given.tables);
     for (std::size_t f = 0; f < files.size(); ++f) {
       const auto truth = gonio::io::read_merl_any(files[f].path);
-      const benchmark_setup& here = shop_for(truth.cells());
+      const benchmark_setup& here = setup_for(truth.cells());
       bar.draw(files[f].name, static_cast<double>(f) / static_cast<double>(files.size()));
       judge_table(given, here, files[f].name, truth, rows);
     }
   }
   for (const std::filesystem::path& file : given.samples)
-    judge_samples(given, shop_for(shop ? shop->materials.cells() : gonio::valid_cells()), file, rows);
+    judge_samples(given, setup_for(setup ? setup->materials.cells() : gonio::valid_cells()), file, rows);
   bar.wipe();
   print(given, rows);
   if (!given.print_json && !given.tables.empty()) print_means(given, rows);

@@ -57,7 +57,7 @@ struct MeasuredBxDFData;
 @CLASS@
 @BODIES@
 
-// What would take more of pbrt: messages, statistics, memory.
+// Stubs for pbrt's messages, statistics and memory.
 void Error(const FileLoc*, const char* message) { std::fputs(message, stderr); }
 void ErrorExit(const FileLoc*, const char* message) { std::fputs(message, stderr); std::exit(2); }
 void LogFatal(LogLevel, const char* file, int line, const char* message) {
@@ -176,7 +176,7 @@ std::vector<double> with_middles(const std::vector<double>& wavelengths) {
   return all;
 }
 
-/// Pairs of directions above the horizon: half of them anywhere, half near the mirror's direction.
+/// Pairs of directions above the horizon: half of them anywhere, half near the mirror direction.
 std::vector<gonio::sample_directions> pairs(int count) {
   const double lowest = std::acos(0.05);
   std::vector<gonio::sample_directions> all;
@@ -195,8 +195,8 @@ std::vector<gonio::sample_directions> pairs(int count) {
   return all;
 }
 
-/// f in both orders, as gonio has their mean: difference as a share of f + 0.01 sr^-1, at 99.9 % of the pairs and the
-/// largest, of those whose half vector is farther from the normal than 0.1 degrees; then the largest of the others.
+/// Prints the difference of f, the mean of both orders as in gonio, relative to f + 0.01 sr^-1: the 99.9th percentile
+/// and the maximum of pairs whose half vector is more than 0.1 degrees from the normal; then the maximum of the others.
 /// pbrt's polar angles are arc cosines of floats, which have steps of 0.02 degrees at the normal.
 void compare_values(const gonio::io::rgl_material& ours) {
   const std::vector<double> wavelengths = with_middles(ours.spectra->wavelengths);
@@ -212,7 +212,7 @@ void compare_values(const gonio::io::rgl_material& ours) {
       const std::size_t band = j / 2, next = (j + 1) / 2;
       const double mean = 0.5 * (one[j] + other[j]);
       double f = 0.5 * (read.values(i)[band] + read.values(i)[next]);
-      // pbrt takes what is negative in one of the orders as 0.
+      // pbrt sets negative values of either order to 0.
       if (one[j] == 0.0 || other[j] == 0.0) f = std::max(f, mean);
       largest = std::max(largest, std::abs(mean - f) / (std::abs(f) + 0.01));
     }
@@ -222,7 +222,7 @@ void compare_values(const gonio::io::rgl_material& ours) {
   std::printf("%.9g %.9g %.9g\n", quantile(off, 0.999), quantile(off, 1.0), quantile(off_near, 1.0));
 }
 
-/// The integral of the density over the hemisphere, over half vectors: d wi = 4 (wo . m) d m.
+/// Returns the integral of the density over the hemisphere, by half vectors: d wi = 4 (wo . m) d m.
 double integral_of_pdf(const vector3& wo, int steps) {
   const gonio::direction out(wo[0], wo[1], wo[2]);
   double sum = 0.0;
@@ -238,8 +238,8 @@ double integral_of_pdf(const vector3& wo, int steps) {
   return sum;
 }
 
-/// Of draws from one direction, on a grid that is shaken: how many fall below the horizon, how far their density is off
-/// that of PDF, and the mean of f cos / pdf as a colour.
+/// Prints the integral of the density, and for draws from one direction on a jittered grid: the fraction below the
+/// horizon, the relative difference of their density from PDF's, and the mean of f cos / pdf as a colour.
 void draw_from(const vector3& wo, const std::vector<double>& wavelengths, int steps) {
   const Eigen::MatrixXd weights = gonio::interpolated_colour(wavelengths);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(weights.cols());

@@ -38,8 +38,8 @@ inline random_parameters draw_parameters(std::uint64_t number) {
   const gonio::model::lambertian base{colour(within(0.0, 0.8), within(0.0, 1.0) < 0.2)};
   const gonio::model::ggx second{.alpha = logarithmic(0.03, 0.8),
                                  .f0 = colour(logarithmic(0.01, 0.3), within(0.0, 1.0) < 0.67)};
-  const double roughness = logarithmic(0.03, 0.8), reflectance = logarithmic(0.01, 0.8);
-  const gonio::rgb tint = colour(reflectance, within(0.0, 1.0) < 0.67);
+  const double roughness = logarithmic(0.03, 0.8), specular = logarithmic(0.01, 0.8);
+  const gonio::rgb tint = colour(specular, within(0.0, 1.0) < 0.67);
   return {base, second, roughness, tint, within(0.0, 1.0) < 0.5};
 }
 
@@ -62,7 +62,7 @@ inline gonio::brdf_table random_material(std::uint64_t number, const gonio::vali
 }
 
 /// Returns the same material at the wavelengths of `spectra`. Its albedo and reflectances are the smoothest spectra of
-/// the given colours. Three wavelengths at a time take the places of red, green and blue.
+/// the given colours. Three wavelengths at a time are evaluated as red, green and blue.
 inline gonio::spectral_table random_spectra(std::uint64_t number, const gonio::model::smooth_spectra& spectra,
                                             const gonio::valid_cells& cells, gonio::thread_count threads) {
   const random_parameters drawn = draw_parameters(number);

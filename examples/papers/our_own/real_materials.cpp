@@ -34,7 +34,7 @@ struct real_materials_options : left_out_options {
   std::string set = "perceived";
   std::vector<Eigen::Index> designed{5, 10, 20}, random{20, 100, 500, 2000};
   std::vector<std::string> methods{"first", "all", "discrepancy", "default"};
-  Eigen::Index first_components = 60, repetitions = 2, wrong = 0, wrong_channels = 3;
+  Eigen::Index first_components = 60, repetitions = 2, wrong = 0, wrong_channels = 3, random_materials = 0;
   double noise = 0.0, receiver_half_angle = 0.0, lobe_width = 1.0, wrong_factor = 10.0;
   bool surrogates = false, scans = false;
 
@@ -103,7 +103,8 @@ class experiment : left_out_experiment {
                          "shape",
                          given_.lobe_width,
                          given_.wrong_factor,
-                         given_.wrong_channels};
+                         given_.wrong_channels,
+                         given_.random_materials};
           by_material[material.name] = once(key, material.turn, where.name + " " + method + " " + material.name,
                                             [&] { return errors_of(material, where, method); });
         }
@@ -136,7 +137,8 @@ class experiment : left_out_experiment {
     const std::string key = everything ? "all " + family : "first";
     if (const auto known = priors_.find(key); known != priors_.end()) return known->second;
     if (everything && !given_.surrogates)
-      return priors_.emplace(key, library_.prior_without(family, given_.components)).first->second;
+      return priors_.emplace(key, library_.prior_without(family, given_.components, given_.random_materials))
+          .first->second;
     const auto& tests = gonio::nielsen_test_materials();
     auto set = library_.materials(everything ? library_.all() : 1, [&](const std::string& name) {
       return given_.surrogates ? std::ranges::find(tests, name) == tests.end() : gonio::material_family(name) != family;
@@ -314,7 +316,10 @@ void print(const real_materials_options& given, const json& rows) {
   if (given.noise > 0.0) std::cout << ", noise of " << fixed(100.0 * given.noise, 0) << " %";
   if (given.wrong > 0)
     std::cout << ", " << (given.wrong_channels < 3 ? std::to_string(given.wrong_channels) + " of the channels of " : "")
-              << given.wrong << " samples " << fixed(given.wrong_factor, 0) << " times too bright or too dark";
+              << counted(given.wrong, "sample") << ' ' << fixed(given.wrong_factor, 0)
+              << " times too bright or too dark";
+  if (given.random_materials > 0)
+    std::cout << ", priors that also learned " << given.random_materials << " random materials";
   if (given.lobe_width != 1.0) std::cout << ", lobes " << fixed(given.lobe_width, 1) << " times as wide";
   if (given.receiver_half_angle > 0.0)
     std::cout << ", a receiver of a half angle of " << fixed(given.receiver_half_angle, 1) << " degrees";
@@ -379,6 +384,9 @@ void add_real_materials(command& app, const team& processes) {
   command.add_option("--wrong-channels", options->wrong_channels, "Number of channels in which they are wrong")
       .check(check::range(1.0, 3.0))
       .capture_default_str();
+  command.add_option("--random-materials", options->random_materials,
+                     "Number of synthetic materials that all priors but the first also learn: analytic models drawn at "
+                     "random");
   command.add_option("--repetitions", options->repetitions, "Number of random sets of each size")
       .check(check::positive_number())
       .capture_default_str();

@@ -58,7 +58,7 @@ struct separate_result {
   double megabytes = 0.0;
 };
 
-/// Runs the work in a separate process, whose memory is that of the work alone.
+/// Runs the work in a separate process, to measure the memory of the work alone.
 template <class Work>
 auto separately(const Work& work) {
   std::array<int, 2> ends{};

@@ -151,7 +151,7 @@ class svbrdf_experiment {
     print_product();
   }
 
-  /// Compares the time to solve texels in memory with that of large products of floats.
+  /// Compares the time to solve texels in memory with the time of large products of floats.
   void print_product() const {
     const Eigen::Index band = 16384;
     const gonio::io::svbrdf_map map(file("map.gsv"));
@@ -193,7 +193,7 @@ class svbrdf_experiment {
     return least;
   }
 
-  /// Kills the tool `kills` times at random moments, and compares its final map with that of the uninterrupted run.
+  /// Kills the tool `kills` times at random moments, and compares its final map with the uninterrupted run's.
   void print_interruptions() const {
     const std::filesystem::path again = file("again.gsv");
     std::filesystem::remove(again);

@@ -19,18 +19,18 @@ voxel_band::voxel_band(const gonio::shape::point_columns& near, const distance_f
   numbers_.assign(static_cast<std::size_t>(extent_.prod()), -1);
   // Mark the voxels near each point, then number them in the grid's order.
   const int around = static_cast<int>(std::ceil(options.band / spacing_));
-  const auto index = [&](const Eigen::Array3i& place) {
-    return place.x() + static_cast<std::size_t>(extent_.x()) * (place.y() + extent_.y() * place.z());
+  const auto index = [&](const Eigen::Array3i& coordinates) {
+    return coordinates.x() + static_cast<std::size_t>(extent_.x()) * (coordinates.y() + extent_.y() * coordinates.z());
   };
   for (const auto& point : near.colwise()) {
-    const Eigen::Array3i middle = grid_place(point).array().round().cast<int>();
+    const Eigen::Array3i middle = grid_coordinates(point).array().round().cast<int>();
     for (int z = -around; z <= around; ++z)
       for (int y = -around; y <= around; ++y)
         for (int x = -around; x <= around; ++x) {
-          const Eigen::Array3i place = middle + Eigen::Array3i(x, y, z);
-          if ((place < 0).any() || (place >= extent_).any()) continue;
-          const Eigen::Vector3d centre = origin_ + spacing_ * place.cast<double>().matrix();
-          if ((centre - point).norm() <= options.band) numbers_[index(place)] = 0;
+          const Eigen::Array3i coordinates = middle + Eigen::Array3i(x, y, z);
+          if ((coordinates < 0).any() || (coordinates >= extent_).any()) continue;
+          const Eigen::Vector3d centre = origin_ + spacing_ * coordinates.cast<double>().matrix();
+          if ((centre - point).norm() <= options.band) numbers_[index(coordinates)] = 0;
         }
   }
   for (int z = 0; z < extent_.z(); ++z)
@@ -47,15 +47,16 @@ Eigen::Vector3d voxel_band::centre(Eigen::Index voxel) const {
   return origin_ + spacing_ * voxels_[voxel].cast<double>().matrix();
 }
 
-int voxel_band::at(const Eigen::Array3i& place) const {
-  if ((place < 0).any() || (place >= extent_).any()) return -1;
-  return numbers_[place.x() + static_cast<std::size_t>(extent_.x()) * (place.y() + extent_.y() * place.z())];
+int voxel_band::at(const Eigen::Array3i& coordinates) const {
+  if ((coordinates < 0).any() || (coordinates >= extent_).any()) return -1;
+  return numbers_[coordinates.x() +
+                  static_cast<std::size_t>(extent_.x()) * (coordinates.y() + extent_.y() * coordinates.z())];
 }
 
 int voxel_band::neighbour(Eigen::Index voxel, Eigen::Index axis, int step) const {
-  Eigen::Array3i place = voxels_[voxel];
-  place[axis] += step;
-  return at(place);
+  Eigen::Array3i coordinates = voxels_[voxel];
+  coordinates[axis] += step;
+  return at(coordinates);
 }
 
 namespace {
@@ -107,9 +108,9 @@ distance_field::distance_field(const gonio::shape::surface_index& scan, const go
 }
 
 distance_field::value_and_gradient distance_field::at(const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d place = band_.grid_place(point);
-  const Eigen::Array3i first = place.array().floor().cast<int>();
-  const Eigen::Vector3d share = place - first.cast<double>().matrix();
+  const Eigen::Vector3d coordinates = band_.grid_coordinates(point);
+  const Eigen::Array3i first = coordinates.array().floor().cast<int>();
+  const Eigen::Vector3d share = coordinates - first.cast<double>().matrix();
   value_and_gradient found;
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Array3i step(corner & 1, (corner >> 1) & 1, corner >> 2);

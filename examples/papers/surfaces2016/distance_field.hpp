@@ -32,10 +32,12 @@ class voxel_band {
   [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(voxels_); }
   [[nodiscard]] Eigen::Vector3d centre(Eigen::Index voxel) const;
   /// Returns the number of a voxel; -1 if it is not in the band.
-  [[nodiscard]] int at(const Eigen::Array3i& place) const;
+  [[nodiscard]] int at(const Eigen::Array3i& coordinates) const;
   [[nodiscard]] int neighbour(Eigen::Index voxel, Eigen::Index axis, int step) const;
   /// Returns a position in voxels, from the centre of the grid's first voxel.
-  [[nodiscard]] Eigen::Vector3d grid_place(const Eigen::Vector3d& point) const { return (point - origin_) / spacing_; }
+  [[nodiscard]] Eigen::Vector3d grid_coordinates(const Eigen::Vector3d& point) const {
+    return (point - origin_) / spacing_;
+  }
   [[nodiscard]] double spacing() const noexcept { return spacing_; }
 
  private:

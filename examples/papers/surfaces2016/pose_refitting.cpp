@@ -36,7 +36,7 @@ constexpr std::array<pose_error, 5> pose_errors{{{0.0, 0.0}, {0.5, 0.1}, {1.0, 0
 struct posed_ear {
   const synthetic::ear_scan& scan;
   gonio::shape::surface_index index;
-  similarity_transform right, begin;
+  similarity_transform right, initial;
 };
 
 /// Returns the error of a method in mm. Throws gonio::error if the method refuses the scan.
@@ -63,16 +63,16 @@ similarity_transform moved(const similarity_transform& right, const synthetic::e
 std::vector<named_way> ways_to_recover(const gonio::shape::shape_model& model, const synthetic::ear_study& study,
                                        gonio::thread_count threads) {
   const auto in_hole = [&study, threads](const posed_ear& ear, const gonio::shape::recovered_shape& found) {
-    const gonio::shape::point_columns placed = found.pose.inverse()(found.surface.vertices);
+    const gonio::shape::point_columns in_scan = found.pose.inverse()(found.surface.vertices);
     return gonio::shape::distance_to(gonio::shape::surface_index(ear.scan.complete),
-                                     gonio::shape::chosen_columns(placed, study.hole_of(ear.scan)), threads)
+                                     gonio::shape::chosen_columns(in_scan, study.hole_of(ear.scan)), threads)
         .absolute_mean;
   };
   const auto recovers = [=, &model](bool holds_pose) -> judged_way {
     gonio::shape::recovery_options how;
     how.coarse.holds_pose = how.fine.holds_pose = holds_pose;
     return [=, &model](const posed_ear& ear) {
-      return in_hole(ear, gonio::shape::recover(model, ear.index, ear.begin, how, threads));
+      return in_hole(ear, gonio::shape::recover(model, ear.index, ear.initial, how, threads));
     };
   };
   const auto algorithm_1 = [=, &model](bool fits_first, bool aligns) -> judged_way {
@@ -81,7 +81,7 @@ std::vector<named_way> ways_to_recover(const gonio::shape::shape_model& model, c
     how.aligns = aligns;
     how.local_rounds = 0;
     return [=, &model](const posed_ear& ear) {
-      return in_hole(ear, gonio::shape::recover_algorithm_1(model, ear.index, ear.begin, how, threads));
+      return in_hole(ear, gonio::shape::recover_algorithm_1(model, ear.index, ear.initial, how, threads));
     };
   };
   return {{"recover, held", recovers(true)},
@@ -99,7 +99,7 @@ std::vector<named_way> ways_to_register(const gonio::shape::shape_model& model, 
     how.fit.holds_pose = holds_pose;
     how.realigns = realigns;
     return [&model, how, threads](const posed_ear& ear) {
-      const auto found = gonio::shape::register_scan(model, ear.index, ear.begin, how, threads);
+      const auto found = gonio::shape::register_scan(model, ear.index, ear.initial, how, threads);
       if (!found.accepted()) gonio::refuse(found.refusal);
       return (found.pose.inverse()(found.vertices) - ear.scan.truth).colwise().norm().mean();
     };

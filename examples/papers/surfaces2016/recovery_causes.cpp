@@ -1,6 +1,5 @@
-/// gonio-papers shape-causes: why Algorithm 1 is less accurate here than its paper prints: one change at a time of the
-/// start, the rounds, the scans, the holes and the learned shapes. After "Anatomically correct surface recovery",
-/// section 4.
+/// gonio-papers shape-causes: why Algorithm 1 is less accurate here than in its paper. Changes the start, the rounds,
+/// the scans, the holes and the learned shapes one at a time. After "Anatomically correct surface recovery", section 4.
 
 #include "papers/experiments.hpp"
 #include "papers/surfaces2016/ear_options.hpp"
@@ -38,7 +37,7 @@ struct shape_causes_command : ear_options {
   std::vector<std::string> rows;
 };
 
-/// A scan with a hole, and what is known of it.
+/// A scan with a hole, and its true values.
 struct causes_ear {
   synthetic::ear_scan scan;
   surface_index index, complete;
@@ -58,7 +57,7 @@ using recovering = std::function<recovered_shape(const shape_model&, const cause
 
 /// Errors of the vertices, mm, as means over the ears.
 struct mean_distances {
-  double signed_size = 0.0;  ///< of the magnitudes of the ears' signed means, which the paper's table has
+  double signed_size = 0.0;  ///< of the magnitudes of the ears' signed means, as in the paper's table
   double absolute = 0.0;
 
   void add(const gonio::shape::surface_distance& off, double share) {
@@ -72,10 +71,10 @@ void print_row(const std::string& name, const shape_model& model, const std::vec
   mean_distances in_hole, everywhere;
   for (const causes_ear& ear : ears) {
     const recovered_shape found = recover(model, ear);
-    const point_columns placed = found.pose.inverse()(found.surface.vertices);
+    const point_columns in_scan = found.pose.inverse()(found.surface.vertices);
     const double share = 1.0 / static_cast<double>(ears.size());
-    in_hole.add(gonio::shape::distance_to(ear.complete, gonio::shape::chosen_columns(placed, ear.hole)), share);
-    everywhere.add(gonio::shape::distance_to(ear.complete, placed), share);
+    in_hole.add(gonio::shape::distance_to(ear.complete, gonio::shape::chosen_columns(in_scan, ear.hole)), share);
+    everywhere.add(gonio::shape::distance_to(ear.complete, in_scan), share);
   }
   std::cout << "| " << name;
   for (const double mean : {in_hole.signed_size, in_hole.absolute, everywhere.signed_size, everywhere.absolute})
@@ -83,7 +82,7 @@ void print_row(const std::string& name, const shape_model& model, const std::vec
   std::cout << " |" << std::endl;
 }
 
-/// The weights of a shape in the model's space, by least squares.
+/// Returns the weights of a shape in the model's space, by least squares.
 Eigen::VectorXd weights_of(const gonio::shape::shape_basis& basis, const point_columns& shape) {
   const std::vector<bool> all(shape.cols(), true);
   return gonio::shape::fit_shape(basis, gonio::tikhonov{1e-9}, gonio::shape::vertex_observations::marked(shape, all),
@@ -91,9 +90,9 @@ Eigen::VectorXd weights_of(const gonio::shape::shape_basis& basis, const point_c
       .weights();
 }
 
-/// A fit that begins Algorithm 1 with some weights of the components of 99 % of the variance.
-fit_to_scan_result begun_with(const shape_model& part, const similarity_transform& pose,
-                              const Eigen::VectorXd& weights) {
+/// Returns an initial fit for Algorithm 1 with the given weights.
+fit_to_scan_result initial_fit(const shape_model& part, const similarity_transform& pose,
+                               const Eigen::VectorXd& weights) {
   const point_columns shape = gonio::shape::shape_of(part.basis(), weights);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(weights.size() + gonio::shape::shape_with_motion::motions);
   all.head(weights.size()) = weights;
@@ -108,13 +107,14 @@ fit_to_scan_result fit_by_simplex(const shape_model& model, const causes_ear& ea
   gonio::shape::posed_scan posed{ear.index, ear.right};
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(part.basis().size());
   for (int turn = 0; turn < turns; ++turn) {
-    const auto places =
-        gonio::shape::closest_places(posed, part.shape(weights), gonio::shape::correspondence_options{}, {1});
+    const auto correspondences =
+        gonio::shape::closest_correspondences(posed, part.shape(weights), gonio::shape::correspondence_options{}, {1});
     const point_columns shape = gonio::shape::shape_of(part.basis(), weights);
-    const auto step = gonio::shape::align(places.positions, gonio::shape::chosen_columns(shape, places.vertices));
+    const auto step =
+        gonio::shape::align(correspondences.positions, gonio::shape::chosen_columns(shape, correspondences.vertices));
     posed.pose = step * posed.pose;
     std::vector<Eigen::Index> some;
-    for (std::size_t i = 0; i < places.vertices.size(); i += 4) some.push_back(places.vertices[i]);
+    for (std::size_t i = 0; i < correspondences.vertices.size(); i += 4) some.push_back(correspondences.vertices[i]);
     const auto mean_distance = [&](const Eigen::VectorXd& scaled) {
       const point_columns moved = gonio::shape::shape_of(part.basis(), deviation * scaled);
       double sum = 0.0;
@@ -123,7 +123,7 @@ fit_to_scan_result fit_by_simplex(const shape_model& model, const causes_ear& ea
     };
     weights = deviation * nelder_mead(mean_distance, weights / deviation, {.most_evaluations = evaluations});
   }
-  return begun_with(part, posed.pose, weights);
+  return initial_fit(part, posed.pose, weights);
 }
 
 recovering algorithm_1(const algorithm_1_options& how) {
@@ -132,10 +132,10 @@ recovering algorithm_1(const algorithm_1_options& how) {
   };
 }
 
-recovering algorithm_1_after(std::function<fit_to_scan_result(const shape_model&, const causes_ear&)> begin,
+recovering algorithm_1_after(std::function<fit_to_scan_result(const shape_model&, const causes_ear&)> find_initial,
                              const algorithm_1_options& how) {
-  return [begin = std::move(begin), how](const shape_model& model, const causes_ear& ear) {
-    return gonio::shape::recover_algorithm_1(model, ear.index, begin(model, ear), how, {1});
+  return [find_initial = std::move(find_initial), how](const shape_model& model, const causes_ear& ear) {
+    return gonio::shape::recover_algorithm_1(model, ear.index, find_initial(model, ear), how, {1});
   };
 }
 
@@ -154,7 +154,7 @@ shape_model learn_from_registered(const shape_model& first, const synthetic::ear
   return gonio::shape::learn_shape_model(shapes, names, first.triangles(), {1});
 }
 
-/// The rows of the table that change how Algorithm 1 begins or goes on.
+/// Prints the rows that change Algorithm 1's start or rounds, and two for comparison.
 void print_changed_rounds(const std::function<void(const std::string&, const recovering&)>& row,
                           const algorithm_1_options& ten_rounds) {
   const auto changed = [&](const std::string& name, auto&& change) {
@@ -166,12 +166,12 @@ void print_changed_rounds(const std::function<void(const std::string&, const rec
   row("start: the true shape", algorithm_1_after(
                                    [](const shape_model& model, const causes_ear& ear) {
                                      const point_columns truth = ear.right(ear.scan.truth);
-                                     return begun_with(model, ear.right, weights_of(model.basis(), truth));
+                                     return initial_fit(model, ear.right, weights_of(model.basis(), truth));
                                    },
                                    ten_rounds));
   row("start: the mean shape", algorithm_1_after(
                                    [](const shape_model& model, const causes_ear& ear) {
-                                     return begun_with(model, ear.right, Eigen::VectorXd::Zero(model.basis().size()));
+                                     return initial_fit(model, ear.right, Eigen::VectorXd::Zero(model.basis().size()));
                                    },
                                    ten_rounds));
   for (const int evaluations : {500, 2000})
@@ -200,7 +200,7 @@ void print_changed_rounds(const std::function<void(const std::string&, const rec
     const auto known = gonio::shape::vertex_observations::marked(truth, ear.scan.covered);
     const auto found = gonio::shape::fit_shape(model.basis(), gonio::truncated_svd{0.999}, known, {1});
     return recovered_shape{model.mesh(found.vertices()), known, ear.right,
-                           begun_with(model, ear.right, found.weights())};
+                           initial_fit(model, ear.right, found.weights())};
   });
   row("gonio", [&ten_rounds](const shape_model& model, const causes_ear& ear) {
     gonio::shape::recovery_options how;

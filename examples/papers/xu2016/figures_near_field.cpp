@@ -141,14 +141,14 @@ table table_of_angles() {
 }
 
 /// Restricts images to a fixed polar angle of light or camera.
-class with_one_in_place {
+class with_one_fixed {
  public:
-  with_one_in_place(const images& all, gonio::direction gonio::direction_pair::*fixed, double polar_angle)
+  with_one_fixed(const images& all, gonio::direction gonio::direction_pair::*fixed, double polar_angle)
       : all_(all), fixed_(fixed), polar_angle_(polar_angle) {}
 
   [[nodiscard]] const gonio::design::near_field_geometry& geometry() const noexcept { return all_.geometry(); }
   [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
-    return std::ranges::all_of(candidates, [&](std::size_t c) { return in_place(c); })
+    return std::ranges::all_of(candidates, [&](std::size_t c) { return is_at_angle(c); })
                ? all_(candidates)
                : std::numeric_limits<double>::infinity();
   }
@@ -156,12 +156,13 @@ class with_one_in_place {
     std::vector<float> errors(geometry().size(), std::numeric_limits<float>::infinity());
     const auto with = all_.beside(candidates);
     for (std::size_t candidate = 0; candidate < errors.size(); ++candidate)
-      if (geometry().allows(candidate) && in_place(candidate)) errors[candidate] = static_cast<float>(with(candidate));
+      if (geometry().allows(candidate) && is_at_angle(candidate))
+        errors[candidate] = static_cast<float>(with(candidate));
     return errors;
   }
 
  private:
-  [[nodiscard]] bool in_place(std::size_t candidate) const {
+  [[nodiscard]] bool is_at_angle(std::size_t candidate) const {
     return std::abs(gonio::polar_angle(geometry().centre(candidate).*fixed_) - polar_angle_) < 1e-6;
   }
 
@@ -171,14 +172,15 @@ class with_one_in_place {
 };
 
 /// Returns for each number of images the best plan over all fixed polar angles.
-std::vector<gonio::design::capture_plan> plans_in_place(const images& all, const options& given, std::size_t most,
-                                                        gonio::direction gonio::direction_pair::*fixed,
-                                                        const gonio::progress& listener) {
+std::vector<gonio::design::capture_plan> plans_with_one_fixed(const images& all, const options& given, std::size_t most,
+                                                              gonio::direction gonio::direction_pair::*fixed,
+                                                              const gonio::progress& listener) {
   std::vector<gonio::design::capture_plan> best(most);
   const double step = gonio::radians(given.step), largest = all.geometry().options().largest_polar_angle;
-  for (double place = 0.0; place <= largest + 1e-9; place += step) {
-    gonio::report(listener, "fixed at " + std::to_string(std::lround(gonio::degrees(place))), place / largest);
-    const with_one_in_place objective(all, fixed, place);
+  for (double polar_angle = 0.0; polar_angle <= largest + 1e-9; polar_angle += step) {
+    gonio::report(listener, "fixed at " + std::to_string(std::lround(gonio::degrees(polar_angle))),
+                  polar_angle / largest);
+    const with_one_fixed objective(all, fixed, polar_angle);
     auto plans = best_plans(objective, most, most_exchanged, given.seed, {});
     for (std::size_t i = 0; i < most; ++i)
       if (plans[i].value < best[i].value) best[i] = std::move(plans[i]);
@@ -308,8 +310,8 @@ tables xu_13(const options& given, const gonio::progress& listener) {
   const std::size_t most = given.up_to(5);
   const images all = read_images(lab, given, figures_field_of_view, listener);
   const auto free = best_plans(all, most, most_exchanged, given.seed, listener);
-  const auto camera = plans_in_place(all, given, most, &gonio::direction_pair::wo, listener);
-  const auto light = plans_in_place(all, given, most, &gonio::direction_pair::wi, listener);
+  const auto camera = plans_with_one_fixed(all, given, most, &gonio::direction_pair::wo, listener);
+  const auto light = plans_with_one_fixed(all, given, most, &gonio::direction_pair::wi, listener);
   const point_errors points = errors_of_points(lab, given, most, listener);
 
   table angles = table_of_angles();

@@ -32,7 +32,7 @@ std::vector<gonio::direction_pair> printed_fixed_camera() { return {at_degrees(4
 
 std::vector<gonio::direction_pair> printed_fixed_light() {
   std::vector<gonio::direction_pair> images{at_degrees(4, 63, 90), at_degrees(39, 33, 126)};
-  // The printed angles are those of the fixed camera (a). For the fixed light (b), light and camera are exchanged.
+  // The printed angles are for the fixed camera (a). For the fixed light (b), light and camera are exchanged.
   for (gonio::direction_pair& image : images) std::swap(image.wi, image.wo);
   return images;
 }

@@ -48,10 +48,10 @@ class mapped_errors {
   [[nodiscard]] Eigen::ArrayX3d of(const std::vector<gonio::model::analytic_brdf>& estimates,
                                    gonio::thread_count threads) const;
 
-  /// Returns a lower bound of the errors: those of the projection of the whole table.
+  /// Returns a lower bound of the errors: the errors of the whole table's projection.
   [[nodiscard]] Eigen::ArrayX3d from_all() const;
 
-  /// Returns the errors without any measurement: those of the mean of the database.
+  /// Returns the errors without any measurement: the errors of the database's mean.
   [[nodiscard]] Eigen::ArrayX3d from_nothing() const;
 
  private:

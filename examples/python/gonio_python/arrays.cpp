@@ -68,8 +68,8 @@ std::vector<py::ssize_t> rows_of_numbers(const py::array& given, py::ssize_t cou
   return rows;
 }
 
-/// Angles of several samples have no reason to have the length 1: such rows are probably the light's unit vectors,
-/// given without those of the viewer.
+/// Refuses several rows if all have the length 1: they are probably not angles but the light's unit vectors, given
+/// without the viewer's.
 void refuse_unit_vectors(const doubles& array, const std::string& name) {
   constexpr py::ssize_t fewest = 3;
   if (array.shape(1) != 3 || array.shape(0) < fewest) return;

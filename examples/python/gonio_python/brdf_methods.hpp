@@ -18,7 +18,8 @@
 
 namespace python {
 
-/// Returns a table over some cells, by default those of a MERL file: by the BRDF's own `tabulate`, else value by value.
+/// Returns a table over some cells, by default a MERL file's: by the BRDF's own `tabulate` if it has one, else value by
+/// value.
 template <gonio::brdf Brdf>
 [[nodiscard]] gonio::brdf_table table_of(const Brdf& f, gonio::thread_count threads,
                                          const gonio::valid_cells& cells = gonio::valid_cells()) {

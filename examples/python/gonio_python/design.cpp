@@ -43,7 +43,7 @@ std::vector<gonio::direction_pair> pairs_of(const py::object& directions, const 
   return pairs;
 }
 
-/// Returns the usual apparatus or that of a file, with noise and angular error replaced if given.
+/// Returns the usual apparatus or a file's, with noise and angular error replaced if given.
 gonio::design::apparatus apparatus_of(const std::optional<std::filesystem::path>& constraint,
                                       const std::optional<double>& noise,
                                       const std::optional<double>& misplaced_degrees) {

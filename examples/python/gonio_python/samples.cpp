@@ -71,15 +71,15 @@ gonio::sample_set spectra_from_arrays(const std::vector<gonio::sample_directions
 
 gonio::sample_set samples_from_arrays(const py::object& directions, const py::object& values, const py::object& weights,
                                       const py::object& wavelengths) {
-  const auto places = sample_directions_of(directions, "directions");
+  const auto pairs = sample_directions_of(directions, "directions");
   gonio::sample_set samples;
   if (!wavelengths.is_none()) {
-    samples = spectra_from_arrays(places, values, weights, channels_of_wavelengths(wavelengths));
+    samples = spectra_from_arrays(pairs, values, weights, channels_of_wavelengths(wavelengths));
   } else {
-    const auto count = static_cast<py::ssize_t>(places.size());
+    const auto count = static_cast<py::ssize_t>(pairs.size());
     const channel_numbers value(values, "values", count);
-    samples.reserve(places.size());
-    for (py::ssize_t i = 0; i < count; ++i) samples.push_back({places[static_cast<std::size_t>(i)], value[i], 1.0});
+    samples.reserve(pairs.size());
+    for (py::ssize_t i = 0; i < count; ++i) samples.push_back({pairs[static_cast<std::size_t>(i)], value[i], 1.0});
     if (!weights.is_none()) {
       const channel_numbers weight(weights, "weights", count);
       for (py::ssize_t i = 0; i < count; ++i) samples[static_cast<std::size_t>(i)].weight = weight[i];
@@ -113,8 +113,8 @@ gonio::sample_set indexed(const gonio::sample_set& samples, const py::object& in
 
 constexpr py::ssize_t from_sample_to_sample = sizeof(gonio::sample), from_number_to_number = sizeof(double);
 
-/// Returns a view with one row per sample: the `columns` numbers from `first(samples)` on, and those of each next
-/// sample `step` bytes later. Returns an empty array if there is no sample.
+/// Returns a view with a row of `columns` numbers per sample. The first row begins at `first(samples)`, each next row
+/// `step` bytes later. Returns an empty array if there is no sample.
 template <class First>
 py::array_t<double> column_view(const py::object& self, py::ssize_t columns, py::ssize_t step, bool writable,
                                 const First& first) {

@@ -19,7 +19,7 @@ namespace python {
 /// Returns the illuminant D65 or A. Throws gonio::error for any other name.
 [[nodiscard]] gonio::illuminant illuminant_of(const std::string& name);
 
-/// Returns c values for each of many pairs, where `values(wi, wo)` returns those of one pair: shape (..., c).
+/// Returns for each of many pairs the c values that `values(wi, wo)` returns: shape (..., c).
 template <class Values>
 [[nodiscard]] py::array_t<double> evaluate_channels(const Values& values, Eigen::Index c, const py::object& wi,
                                                     const py::object& wo, unsigned threads) {
@@ -39,7 +39,7 @@ template <class Values>
   return found;
 }
 
-/// Adds what a fit of spectra has beside its colours. `fit_of` returns the fit in its own channels.
+/// Adds the spectral properties of a fit. `fit_of` returns the fit in its own channels.
 template <class Fit, class... Extra, class FitOf>
 void add_spectra(py::class_<Fit, Extra...>& type, const FitOf& fit_of) {
   type.def_property_readonly(

@@ -1,5 +1,5 @@
 #pragma once
-/// The module's subjects, one file each. A subject comes after those whose classes it uses.
+/// The module's subjects, one file each. A subject comes after the subjects whose classes it uses.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>

@@ -76,7 +76,7 @@ async function check_switches(page, name) {
   check(linear.every((each) => /radius linear$/.test(each)) && logarithmic.every((each) => /radius logarithmic, .* in the middle$/.test(each)),
     `${name}: the keyboard switches from "${linear[0]}" to "${logarithmic[0]}"`);
   const ends = await page.evaluate(() => [...document.querySelectorAll(".pair svg path")].some((each) => /NaN|Infinity/.test(each.getAttribute("d"))));
-  check(!ends, `${name}: in logarithmic axes every point has a place`);
+  check(!ends, `${name}: in logarithmic axes every point is drawn`);
   await axes.selectOption("cartesian");
   const one = await labels();
   check(one.length === scans && one.every((each) => each === "Cartesian"), `${name}: Cartesian axes alone`);

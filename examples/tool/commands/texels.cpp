@@ -81,7 +81,7 @@ void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& 
 
 /// Returns the position of an uncertainty on a scale from 0.1 to 5. A texel's uncertainty is the root mean square over
 /// all directions, which is larger than the uncertainty of most directions: with 20 images, about 1.
-double place_of_uncertainty(double uncertainty) { return gonio::render::place_by_factors(uncertainty, 0.1, 5.0); }
+double place_of_uncertainty(double uncertainty) { return gonio::render::logarithmic_position(uncertainty, 0.1, 5.0); }
 
 colour_scale scale_of_uncertainty() {
   const auto at = place_of_uncertainty;

@@ -214,8 +214,8 @@ json describe_frames(const path_type& path) {
 
 bool has_keyword(const file_look& file, std::initializer_list<std::string_view> keywords) {
   std::string_view text = file.start;
-  gonio::io::text_place place;
-  for (std::string_view line; gonio::io::next_line(text, place, line);)
+  gonio::io::text_position position;
+  for (std::string_view line; gonio::io::next_line(text, position, line);)
     if (std::ranges::find(keywords, line.substr(0, line.find_first_of(" \t"))) != keywords.end()) return true;
   return false;
 }
@@ -223,9 +223,9 @@ bool has_keyword(const file_look& file, std::initializer_list<std::string_view> 
 /// Does a line in the start of the file begin with a number?
 bool is_list_of_numbers(const file_look& file) {
   std::string_view text = file.start;
-  gonio::io::text_place place;
+  gonio::io::text_position position;
   double ignored = 0.0;
-  for (std::string_view line; gonio::io::next_line(text, place, line);)
+  for (std::string_view line; gonio::io::next_line(text, position, line);)
     if (!gonio::io::read_number(line.substr(0, line.find_first_of(" \t,;")), ignored)) return true;
   return false;
 }

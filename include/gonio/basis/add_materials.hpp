@@ -6,10 +6,10 @@
 
 namespace gonio {
 
-/// Returns a prior of the given prior's materials and the new ones, over the given prior's cells. Of the old materials
-/// only the components are known; the rest is lost. The reference stays the given prior's, not the median of all
+/// Returns a prior of the given prior's materials and the new ones, over the given prior's cells. Of the old materials,
+/// only the part that the components explain is known. The reference stays the given prior's, not the median of all
 /// materials. Singular values stay in the given prior's scale, although that prior may have been learned over more
-/// cells than it keeps. Its cosine weighting stays, too: `options.weighting` is not used.
+/// cells than it keeps. The given prior's cosine weighting stays, too: `options.weighting` is not used.
 ///
 /// O(cells (k + m)^2) for m new columns and k old components, or like learn_streamed_pca if these exceed
 /// `exact_columns`. Throws gonio::error as learn_streamed_pca does, and if the materials are over other cells, at other

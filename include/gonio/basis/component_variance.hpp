@@ -1,5 +1,5 @@
 #pragma once
-/// The spread of a prior's materials along each of its principal components, in which edits of a material are measured.
+/// The standard deviation of a prior's materials along each principal component: the unit for edits of a material.
 /// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 5-7: a channel of a material is mu + Q c, and its weights c
 /// are a row of U.
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A smooth random function for everything in a material that the components of a prior cannot express. Such a model
+/// A smooth random function for the part of a material that a prior's components cannot express. Such a model
 /// discrepancy is a Gaussian process: Kennedy and O'Hagan, "Bayesian calibration of computer models", Journal of the
 /// Royal Statistical Society B 63(3), 2001 (doi:10.1111/1467-9868.00294). The basis functions around the measured
 /// locations are those of Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, section 8.3.1.
@@ -33,8 +33,9 @@ struct correlation_lengths {
 namespace detail {
 
 /// The coordinates of angles in units of the correlation lengths: one of theta_h, then three of theta_d and phi_d.
-using discrepancy_place = std::array<double, 4>;
-[[nodiscard]] discrepancy_place place_of(const half_difference& angles, const correlation_lengths& lengths) noexcept;
+using discrepancy_coordinates = std::array<double, 4>;
+[[nodiscard]] discrepancy_coordinates coordinates_of(const half_difference& angles,
+                                                     const correlation_lengths& lengths) noexcept;
 
 }  // namespace detail
 
@@ -45,7 +46,7 @@ using discrepancy_place = std::array<double, 4>;
 
 /// Returns the covariance k of each of `angles` with one other location, for an amplitude of 1.
 [[nodiscard]] Eigen::VectorXd discrepancy_covariance(std::span<const half_difference> angles,
-                                                     const half_difference& place,
+                                                     const half_difference& other,
                                                      const correlation_lengths& lengths = {});
 
 /// Returns the covariance k of each of `angles` (a row) with each of `others` (a column), for an amplitude of 1.
@@ -60,8 +61,8 @@ using discrepancy_place = std::array<double, 4>;
 /// are phi(x) = amplitude^(1/2) L^-1 k(centres, x), L L' = k(centres, centres). Weights of unit variance give a
 /// function whose variance is `amplitude` at the centres, and smaller far from all centres.
 ///
-/// The covariances k(centres, x) themselves are a second basis of the same span. They are faster to compute, but their
-/// weights are correlated.
+/// The covariances k(centres, x) themselves are a second basis with the same span. They are faster to compute, but
+/// their weights are correlated.
 class discrepancy_functions {
  public:
   /// Makes the functions phi(x) = amplitude^(1/2) L^-1 k(centres, x). Throws gonio::error if there is no centre, an
@@ -74,7 +75,7 @@ class discrepancy_functions {
   [[nodiscard]] static discrepancy_functions covariances(std::span<const half_difference> centres,
                                                          const correlation_lengths& lengths = {});
 
-  [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(shared_->places); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return std::ssize(shared_->coordinates); }
 
   /// Writes the values of all functions at one location: size() contiguous numbers. O(size^2) for phi, O(size) for k.
   void read(const half_difference& angles, double* out) const noexcept;
@@ -93,7 +94,7 @@ class discrepancy_functions {
 
  private:
   struct stored {
-    std::vector<detail::discrepancy_place> places;  ///< coordinates of the centres
+    std::vector<detail::discrepancy_coordinates> coordinates;  ///< of the centres
     correlation_lengths lengths;
     double amplitude = 1.0;
     std::optional<cholesky> factors;  ///< L of phi; absent for k

@@ -20,7 +20,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// Returns every material that principal components were learned from, over the components' own cells, as approximated
+/// Returns all materials from which principal components were learned, over the components' own cells, as approximated
 /// by the kept components: mu + Q c mapped back, at least zero. Spectra become their colours under D65, also at least
 /// zero. The small file of a prior can then replace the database wherever a `material_set` is needed. O(cells x
 /// observations x components). Throws gonio::error if none of several wavelengths is visible.

@@ -63,7 +63,7 @@ struct streamed_components {
 
 /// Returns the principal components of the materials under log_relative to their median. Makes two passes over the
 /// cells, or `subspace.products` passes (3 by default) for a random subspace. O(cells m^2) for m columns, or O(cells m
-/// components). The same bytes for any number of threads. Throws gonio::error as learn_pca does, and anything that
+/// components). Any number of threads gives the same bytes. Throws gonio::error as learn_pca does, and anything that
 /// reading throws.
 ///
 /// ```cpp

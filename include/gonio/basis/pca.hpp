@@ -19,9 +19,9 @@
 namespace gonio {
 
 /// The parts of a principal component basis, for building or storing one.
-template <error_metric Metric, domain Places = valid_cells>
+template <error_metric Metric, domain Domain = valid_cells>
 struct pca_parts {
-  Places cells;
+  Domain cells;
   Metric metric;
   std::vector<std::string> names;        ///< names of the materials that the basis was learned from
   Eigen::VectorXd singular_values;       ///< Sigma, k values, largest first
@@ -34,10 +34,10 @@ struct pca_parts {
 };
 
 /// Principal components over the valid cells of a grid, or another domain. A value type; copies share their storage.
-template <error_metric Metric, domain Places = valid_cells>
+template <error_metric Metric, domain Domain = valid_cells>
 class pca {
  public:
-  using parts_type = pca_parts<Metric, Places>;
+  using parts_type = pca_parts<Metric, Domain>;
   /// The sign of a component is arbitrary: see `has_arbitrary_sign`.
   static constexpr bool arbitrary_sign = true;
 
@@ -55,7 +55,7 @@ class pca {
 
   /// Returns the number of components k.
   [[nodiscard]] Eigen::Index size() const noexcept { return parts_->components.cols(); }
-  [[nodiscard]] const Places& cells() const noexcept { return parts_->cells; }
+  [[nodiscard]] const Domain& cells() const noexcept { return parts_->cells; }
   [[nodiscard]] const Metric& metric() const noexcept { return parts_->metric; }
 
   /// Returns the k scaled components at a cell.
@@ -74,7 +74,7 @@ class pca {
   [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return parts_->wavelengths; }
   /// Returns the number of channels of each material: its wavelengths or, if there are none, the number that the domain
   /// declares (three colours by default). The channels of a material are consecutive rows of `coefficients`.
-  [[nodiscard]] Eigen::Index channels() const noexcept { return channels_at<Places>(parts_->wavelengths); }
+  [[nodiscard]] Eigen::Index channels() const noexcept { return channels_at<Domain>(parts_->wavelengths); }
   [[nodiscard]] const Eigen::MatrixXf& coefficients() const noexcept { return parts_->coefficients; }
   [[nodiscard]] double explained_variance() const noexcept { return parts_->explained_variance; }
   [[nodiscard]] const std::string& source() const noexcept { return parts_->source; }

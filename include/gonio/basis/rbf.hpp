@@ -25,9 +25,9 @@
 
 namespace gonio {
 
-/// Returns the location of a direction pair in the domain of radial basis functions. sqrt(theta_h / 90 degrees) is
-/// finer towards the highlight. theta_d / 90 degrees is the radius on a disc with the angle 2 phi_d. The disc closes
-/// where phi_d wraps (reciprocity), and its centre is theta_d = 0, where phi_d has no meaning.
+/// Returns the coordinates of a direction pair for radial basis functions. sqrt(theta_h / 90 degrees) is finer towards
+/// the highlight. theta_d / 90 degrees is the radius on a disc with the angle 2 phi_d. The disc closes where phi_d
+/// wraps (reciprocity), and its centre is theta_d = 0, where phi_d has no meaning.
 [[nodiscard]] inline Eigen::Vector3d radial_coordinates(const half_difference& angles) noexcept {
   constexpr double right_angle = std::numbers::pi / 2.0;
   const double radius = angles.theta_d / right_angle;
@@ -117,13 +117,13 @@ class rbf {
   rbf(valid_cells cells, Metric metric, const std::vector<half_difference>& centres, Kernel kernel = Kernel())
       : cells_(std::move(cells)), metric_(std::move(metric)), kernel_(std::move(kernel)) {
     if (centres.empty()) refuse("radial basis functions need at least one centre");
-    coordinate_rows places(3, std::ssize(centres));
+    coordinate_rows coordinates(3, std::ssize(centres));
     for (Eigen::Index i = 0; i < std::ssize(centres); ++i) {
-      const Eigen::Vector3d place = radial_coordinates(centres[i]);
-      if (!place.allFinite()) refuse({"centre ", i + 1, " of radial basis functions is not finite"});
-      places.col(i) = place.array();
+      const Eigen::Vector3d centre = radial_coordinates(centres[i]);
+      if (!centre.allFinite()) refuse({"centre ", i + 1, " of radial basis functions is not finite"});
+      coordinates.col(i) = centre.array();
     }
-    centres_ = std::make_shared<const coordinate_rows>(std::move(places));
+    centres_ = std::make_shared<const coordinate_rows>(std::move(coordinates));
   }
 
   /// Takes 758 centres, like Noell et al. 2014, that are far from each other. Throws gonio::error if there are fewer
@@ -140,13 +140,13 @@ class rbf {
 
   /// Writes the kernel of the distance to each centre, then 1, then the three radial coordinates.
   void read_row(const location& at, function_row out) const noexcept {
-    const Eigen::Vector3d place = radial_coordinates(at.angles);
+    const Eigen::Vector3d here = radial_coordinates(at.angles);
     const coordinate_rows& centres = *centres_;
     kernel_row kernels = out.head(centres.cols()).array();
-    kernels = (centres.row(0) - place.x()).square() + (centres.row(1) - place.y()).square() +
-              (centres.row(2) - place.z()).square();
+    kernels = (centres.row(0) - here.x()).square() + (centres.row(1) - here.y()).square() +
+              (centres.row(2) - here.z()).square();
     kernel_.apply(kernels);
-    out.tail<4>() << 1.0, place.transpose();
+    out.tail<4>() << 1.0, here.transpose();
   }
 
  private:

@@ -65,8 +65,8 @@ struct measured_reflectance {
 
 /// Returns the BRDF of a material from a reading of the material and a reading of the reference at the same pair of
 /// directions (Eq. 18). Uses the mean radiance over all pixels. A channel that is dark in every exposure has the value
-/// 0. `material_at` and `reference_at` give the positions of material and reference in the light if these differ (Eq.
-///    22).
+/// 0. `material_at` and `reference_at` are the positions of material and reference in the light, if they differ (Eq.
+/// 22).
 ///
 /// Looks up the reference's reflectance at the pair `at`. If the reference's normal differs from the material's, give
 /// the pair relative to the reference's normal as `reference_pose`.
@@ -78,7 +78,7 @@ struct measured_reflectance {
                                                        const illumination& reference_at = {},
                                                        const std::optional<direction_pair>& reference_pose = {});
 
-/// A lamp as the camera sees it that looks into the lamp: the absolute method (Sec. 1).
+/// A lamp as seen by the camera, which looks into it: the absolute method (Sec. 1).
 struct measured_lamp {
   std::array<uncertain, 3> exposures;  ///< per second, of each channel; through the filter
   double solid_angle = 0.0;            ///< of the lamp, seen from the sample, in sr
@@ -97,9 +97,8 @@ struct measured_lamp {
 
 /// Readings of a white reference, for use at poses where it was not measured. Assumes that the reference is matte and
 /// at the material's position: its radiance is proportional to the cosine of incidence and equal for every viewer (Eq.
-/// 21 and 22), except for the factor that its reflectance table has at the pose of its reading. A pose of the material
-/// uses the reading of the reference with the nearest light direction, so that each lamp of an arc is compared with
-/// itself.
+/// 21 and 22), except for the factor of its reflectance table at the pose of its reading. A pose of the material uses
+/// the reading of the reference with the nearest light direction, so that each lamp of an arc is compared with itself.
 class reference_readings {
  public:
   /// Throws gonio::error if there is no reading, or if the number of poses differs.
@@ -115,9 +114,9 @@ class reference_readings {
 };
 
 /// Throws gonio::error if the reference appears to be exchanged with the material: if the material is more than 5 %
-/// brighter than the reference would be with the largest of its factors, in most samples or in most samples whose half
-/// vector is more than 10 degrees from the normal. Rejects a correct measurement only if it contains little but a
-/// highlight, or if the material is whiter than the reference.
+/// brighter than the reference would be with its largest factor, in most samples or in most samples whose half vector
+/// is more than 10 degrees from the normal. Rejects a correct measurement only if it contains little but a highlight,
+/// or if the material is whiter than the reference.
 void require_bright_reference(std::span<const measured_reflectance> usable, const reference_reflectance& reflectance);
 
 }  // namespace gonio::capture

@@ -39,14 +39,14 @@ class camera_response {
   /// Returns ln X of a count, which may be fractional, where X is the exposure. Below the first knot, extends the line
   /// between the first two knots; a count of 0 gives -infinity.
   [[nodiscard]] double log_exposure(double count) const noexcept {
-    const auto [left, share] = place_of(count);
+    const auto [left, share] = knot_position(count);
     return values_[left] + share * (values_[left + 1] - values_[left]);
   }
   [[nodiscard]] double exposure(double count) const noexcept { return std::exp(log_exposure(count)); }
 
   /// Returns d ln X / d count: the effect of an error of one count on the logarithm of exposure.
   [[nodiscard]] double slope(double count) const noexcept {
-    const Eigen::Index left = place_of(count).first;
+    const Eigen::Index left = knot_position(count).first;
     return (values_[left + 1] - values_[left]) / (std::log1p(1.0 / static_cast<double>(left + 1)) * count);
   }
 
@@ -56,11 +56,11 @@ class camera_response {
 
   /// Returns the knot to the left of a count, from 0, and the fraction of the way to the next knot in the logarithm of
   /// the count. The fraction is negative below the first knot.
-  [[nodiscard]] std::pair<Eigen::Index, double> place_of(double count) const noexcept {
-    return place_of(count, spacing(), values_.size());
+  [[nodiscard]] std::pair<Eigen::Index, double> knot_position(double count) const noexcept {
+    return knot_position(count, spacing(), values_.size());
   }
-  [[nodiscard]] static std::pair<Eigen::Index, double> place_of(double count, double spacing,
-                                                                Eigen::Index knots) noexcept;
+  [[nodiscard]] static std::pair<Eigen::Index, double> knot_position(double count, double spacing,
+                                                                     Eigen::Index knots) noexcept;
 
   /// The largest number of knots, enough for all 8-bit cameras.
   static constexpr Eigen::Index most_knots = 64;
@@ -83,8 +83,7 @@ struct response_options {
   std::uint16_t saturation = 0;
 };
 
-/// Estimates the response of a camera whose pixels were each exposed at several exposure times. It is the g that
-/// minimises
+/// Estimates the response g of a camera whose pixels were each exposed at several exposure times. g minimises
 ///
 ///   sum w(Z_ij)^2 (g(Z_ij) - ln E_i - ln t_j)^2 / sum w^2 + smoothness * integral of (v(Z) d^2 g / d(ln Z)^2)^2
 ///

@@ -26,8 +26,8 @@ void require_alike(std::span<const exposed_frame> frames, const char* what);
 
 }  // namespace detail
 
-/// The dark counts of all pixels and channels, and their uncertainty. Constructed without frames, it is one given level
-/// for all, without error.
+/// The dark counts of all pixels and channels, and their uncertainty. Without frames, all values have one given level
+/// without error.
 class dark_signal {
  public:
   dark_signal() = default;

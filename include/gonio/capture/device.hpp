@@ -167,7 +167,7 @@ template <camera Camera>
   const auto [least, most] = std::ranges::minmax_element(taken.times);
   const Eigen::Index darkest = least - taken.times.begin();
   const Eigen::Index brightest = most - taken.times.begin();
-  // Frames without pixels are left to the caller's check of the reading.
+  // The caller checks for frames without pixels.
   const auto is_bright = [&](const camera_frame& each) {
     return each.rows() > 0 && each.maxCoeff() >= largest - largest / 8;
   };

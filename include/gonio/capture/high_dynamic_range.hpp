@@ -39,7 +39,7 @@ struct measured_radiance {
   double value = 0.0;
   double deviation = 0.0;  ///< standard deviation of the value
   bool saturated = false;  ///< even in the shortest exposure; the value is a lower bound, its deviation infinite
-  bool dark = false;       ///< even at the shortest time; the value is a lower bound, the deviation infinite
+  bool dark = false;       ///< even in the longest exposure; the value is 0, its deviation the radiance of one count
 
   [[nodiscard]] bool usable() const noexcept { return !saturated && !dark; }
 };
@@ -51,10 +51,10 @@ struct exposed {
   double time = 0.0, exposure = 0.0, count = 0.0;
 };
 
-/// Returns the mean radiance of several exposures, weighted by their inverse variances. The variances are those at the
+/// Returns the mean radiance of several exposures, weighted by their inverse variances. Uses the variances at the
 /// counts that the mean predicts. Variances at the measured counts would favour counts that noise made darker, and
 /// would admit the darker half of a saturated count's distribution. Counts at which the response is extrapolated are
-/// used only if all counts are such. Value and deviation are 0 if there is no exposure.
+/// used only if there are no others. Value and deviation are 0 if there is no exposure.
 [[nodiscard]] measured_radiance mean_radiance(std::vector<exposed> all, const camera_response& response,
                                               const sensor_noise& noise, double saturation, double pixels);
 

@@ -61,24 +61,25 @@ namespace detail {
 /// Returns the colour at a position of the sphere's image by bilinear interpolation. Ignores pixels that lie partly
 /// outside the sphere. Positions less than three quarters of a pixel from the rim are moved inwards to that distance,
 /// and further by quarters of a pixel until one of the four pixels is whole.
-[[nodiscard]] rgb read_probe(const light_probe& probe, const Eigen::Vector2d& place) noexcept;
+[[nodiscard]] rgb read_probe(const light_probe& probe, const Eigen::Vector2d& position) noexcept;
 
 /// Returns the colour of the light from a world direction. Directions that the sphere hides get the colour at the rim
 /// on that side.
 [[nodiscard]] rgb light_from(const light_probe& probe, const direction& towards) noexcept;
 
-/// Returns the weight of a probe for light from a world direction: the fourth power of its resolution in the direction
-/// in which it is lowest, pixels per radian of polar angle; 0 for light that the sphere or the photographer hides. It
-/// rises from 0 to the full weight over half the photographer's angle. Of the powers 1, 2, 4, 8 and 16 the fourth gives
-/// the smallest or nearly the smallest error for cameras 90 to 180 degrees apart, aligned or up to 3 degrees off.
+/// Returns the weight of a probe for light from a world direction: the fourth power of its lowest resolution there, in
+/// pixels per radian of polar angle; 0 for light that the sphere or the photographer hides. Beside the photographer,
+/// the weight rises from 0 to its full value over half the photographer's angle. Of the powers 1, 2, 4, 8 and 16, the
+/// fourth gives the smallest or nearly the smallest error for cameras 90 to 180 degrees apart, aligned or up to 3
+/// degrees off.
 [[nodiscard]] double probe_weight(const light_probe& probe, const direction& towards) noexcept;
 
 }  // namespace detail
 
 /// Converts probes to a latitude-longitude image of the light, with the conventions of render/environment_map.hpp. For
-/// each direction of the map it interpolates each photograph at the position of that light and takes the mean by
-/// `detail::probe_weight`. Directions that are hidden in all photographs get the mean of the colours at the rims, and
-/// of the photographers. Values below 0, noise, become 0.
+/// each direction of the map it interpolates each photograph at the position of that light and takes the mean, weighted
+/// by `detail::probe_weight`. Directions that are hidden in all photographs get the mean colour of the rims and
+/// photographers. Values below 0, noise, become 0.
 ///
 /// Throws gonio::error unless there is a probe and a row, samples is not negative, the reflectance is above 0 and at
 /// most 1, and all probes are usable. O(probes rows^2 samples^2).

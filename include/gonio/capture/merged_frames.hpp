@@ -31,7 +31,7 @@ enum class value_state : std::uint8_t {
 };
 
 /// The radiance of each value as exposure per second, up to the unknown factor of the responses (the middle count of a
-/// response has exposure 1). The layout is that of `stored_codes`.
+/// response has exposure 1). The layout is the same as in `stored_codes`.
 struct merged_frames {
   image radiance;
   image deviation;                  ///< standard deviation; infinite if saturated or hot

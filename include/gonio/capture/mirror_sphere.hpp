@@ -1,7 +1,7 @@
 #pragma once
-/// Where a mirror sphere shows the light from a direction (P. Debevec, "Rendering Synthetic Objects into Real Scenes",
-/// SIGGRAPH 1998, doi:10.1145/280814.280864; Nielsen's thesis 2016, note on environment maps, Eq. 1-3).
-/// capture/light_probe.hpp converts photographs to maps of the light.
+/// The image position at which a mirror sphere shows light from a direction (P. Debevec, "Rendering Synthetic Objects
+/// into Real Scenes", SIGGRAPH 1998, doi:10.1145/280814.280864; Nielsen's thesis 2016, note on environment maps, Eq.
+/// 1-3). capture/light_probe.hpp converts photographs to maps of the light.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
@@ -39,11 +39,11 @@ class mirror_sphere {
   [[nodiscard]] double largest_polar_angle() const noexcept { return std::numbers::pi - std::asin(1.0 / distance_); }
 
   /// Returns the image position of light from a direction, which need not be of unit length. Returns nothing if the
-  /// sphere hides it. Uses about five steps of Newton's method in the plane of light, normal and camera.
-  [[nodiscard]] std::optional<Eigen::Vector2d> place_of(const direction& light) const noexcept;
+  /// sphere hides the light. Uses about five steps of Newton's method in the plane of light, normal and camera.
+  [[nodiscard]] std::optional<Eigen::Vector2d> position_of(const direction& light) const noexcept;
 
   /// Returns the direction of the light seen at an image position, a unit vector; nothing outside the sphere.
-  [[nodiscard]] std::optional<direction> light_at(const Eigen::Vector2d& place) const noexcept;
+  [[nodiscard]] std::optional<direction> light_at(const Eigen::Vector2d& position) const noexcept;
 
   /// Returns how far the image position moves per radian of the light's polar angle, in radii of the sphere: 1/2 in the
   /// middle for a camera at infinity, and 0 at the rim and for light that the sphere hides. Across this direction the
@@ -63,7 +63,7 @@ class mirror_sphere {
   /// a + leaning(a) = polar. The left side of the equation increases with a.
   [[nodiscard]] double normal_angle(double polar) const noexcept;
 
-  /// Returns the derivative by the normal's angle of the light's polar angle, 2 a + leaning(a).
+  /// Returns the derivative of the light's polar angle, 2 a + leaning(a), with respect to the normal's angle a.
   [[nodiscard]] double polar_slope(double angle) const noexcept {
     if (is_far()) return 2.0;
     const double cosine = std::cos(angle);

@@ -62,14 +62,14 @@ void require_usable(const near_field_setup& setup);
 namespace detail {
 
 /// A point of the sample, and the direction from this point to the camera.
-struct seen_place {
+struct seen_point {
   Eigen::Vector3d position;
   direction view;
 };
 
 /// Returns the point of the sample that a pixel sees, if the point is in the disc and the mask contains the pixel. Does
 /// not check the window.
-[[nodiscard]] std::optional<seen_place> place_of_pixel(const near_field_setup& setup, std::size_t row,
+[[nodiscard]] std::optional<seen_point> point_of_pixel(const near_field_setup& setup, std::size_t row,
                                                        std::size_t column);
 
 /// The reading of one pixel of the region of interest.

@@ -2,9 +2,9 @@
 /// The reflectance of a white reference: a number, or a table over the angles of light and viewer. No reference is
 /// perfectly matte: take the table from the maker, or measure it.
 ///
-/// The factor is the reference's BRDF times pi: its radiance relative to that of a perfect diffuser under the same
-/// light. A BRDF that is measured with the reference is proportional to this factor (Nielsen's thesis 2016, note on
-/// relative BRDF measurement, Eq. 18).
+/// The factor is the reference's BRDF times pi: its radiance relative to a perfect diffuser's under the same light. A
+/// BRDF that is measured with the reference is proportional to this factor (Nielsen's thesis 2016, note on relative
+/// BRDF measurement, Eq. 18).
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>

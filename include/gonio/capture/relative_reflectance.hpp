@@ -11,7 +11,7 @@
 
 namespace gonio::capture {
 
-/// Returns the half angle in radians of the cone from which a pixel receives light: that of a lens of diameter
+/// Returns the half angle in radians of the cone from which a pixel receives light through a lens of diameter
 /// focal_length / f_number (Eq. 1 and 5). All lengths have the same unit. Throws gonio::error unless all are positive
 /// and finite.
 [[nodiscard]] double pixel_half_angle(double focal_length, double f_number, double distance);
@@ -45,15 +45,15 @@ class reference_light {
   reference_light(const uncertain& exposure, double reflectance, const illumination& at = {});
 
   /// Takes the exposure per second of the lamp itself, into which the same camera looks through a filter of this
-  /// transmittance (the absolute method, Sec. 1). From the sample at the distance 1 the lamp has this solid angle Omega
-  /// in sr. A lamp of radiance L gives E = L Omega cos(theta_i), and the camera's exposure is X = transmittance k L for
-  /// the lamp and k f E for the material. Throws gonio::error unless exposure, solid angle and transmittance are
-  /// positive and finite, the solid angle at most 2 pi, and the transmittance at most 1.
+  /// transmittance (the absolute method, Sec. 1). `solid_angle` is Omega, the lamp's solid angle in sr, seen from the
+  /// sample at distance 1. A lamp of radiance L gives E = L Omega cos(theta_i), and the camera's exposure is X =
+  /// transmittance k L for the lamp and k f E for the material. Throws gonio::error unless exposure, solid angle and
+  /// transmittance are positive and finite, the solid angle at most 2 pi, and the transmittance at most 1.
   [[nodiscard]] static reference_light of_lamp(const uncertain& exposure, double solid_angle,
                                                double transmittance = 1.0);
 
   /// Returns f of a material in sr^-1 from its exposure per second at the reference's camera pose (Eq. 22). The
-  /// deviation of f is due to the deviations of both exposures. Throws gonio::error if `at` is unusable, as the
+  /// deviation of f includes the deviations of both exposures. Throws gonio::error if `at` is unusable, as the
   /// constructor does.
   [[nodiscard]] uncertain brdf(const uncertain& exposure, const illumination& at = {}) const;
 

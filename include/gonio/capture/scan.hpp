@@ -26,13 +26,13 @@ struct missing_pose {
 
 /// The path of a machine through pairs of directions.
 struct scan_plan {
-  std::vector<direction_pair> poses;      ///< the poses in the order in which they are measured
+  std::vector<direction_pair> poses;      ///< the poses in the order of measurement
   std::vector<missing_pose> unreachable;  ///< numbered by their positions among the requested pairs
   double length = 0.0;                    ///< radians of travel from the first pose to the last
 };
 
-/// Returns where a machine can measure a pair: as given or, by reciprocity, with light and viewer exchanged. If neither
-/// is possible, returns the obstacle for the pair as given.
+/// Returns the pair that a machine can measure: as given or, by reciprocity, with light and viewer exchanged. If
+/// neither is possible, returns the obstacle for the pair as given.
 template <goniometer Machine>
 [[nodiscard]] placement place_either_way(const Machine& machine, const direction_pair& pair) {
   placement as_asked = machine.place(pair);

@@ -21,7 +21,7 @@ namespace gonio::capture {
 
 /// Which pixels of a photograph to use, and how to average them.
 struct photograph_options {
-  /// Skips pixels with a channel of at least this value, in the photograph or in that of the white reference.
+  /// Skips pixels with a channel of at least this value, in the photograph or the white reference's photograph.
   std::optional<double> saturation = {};
   /// Skips pixels at which the cosine of light or camera is smaller than this.
   double smallest_cosine = 0.05;

@@ -86,9 +86,9 @@ struct angular_grid {
 /// material has the same BRDF at the resulting pair. If the light is at the zenith, the viewer ends above the x axis.
 [[nodiscard]] direction_pair above_arc(const direction_pair& pair);
 
-/// Returns a short path through some places. Starts at the first place, goes to the nearest remaining place each time,
+/// Returns a short path through some points. Starts at the first point, goes to the nearest remaining point each time,
 /// and does not return. Then reverses sections of the path while that shortens it (2-opt; G. Croes, Operations Research
-/// 6, 1958, doi:10.1287/opre.6.6.791). `between(i, j)` is the symmetric distance between two places. O(count^2) for
+/// 6, 1958, doi:10.1287/opre.6.6.791). `between(i, j)` is the symmetric distance between two points. O(count^2) for
 /// each round over all sections. The result is deterministic.
 template <class Between>
 [[nodiscard]] std::vector<Eigen::Index> short_way(Eigen::Index count, const Between& between) {

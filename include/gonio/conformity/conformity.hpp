@@ -88,7 +88,7 @@ struct conformity {
 
 namespace detail {
 
-/// The n samples of a part and, after them, those of a reference: N samples together.
+/// The n samples of a part, followed by the samples of a reference: N samples together.
 struct conformity_samples {
   Eigen::Index parts = 0;
   std::vector<half_difference> angles;
@@ -128,9 +128,9 @@ void require_possible(const conformity_options& options, Eigen::Index channels);
 /// Returns 1 if all columns are equal, otherwise the number of columns.
 [[nodiscard]] Eigen::Index distinct_channels(const Eigen::MatrixXd& values);
 
-/// Returns the positions of measurements in the same direction as a location.
+/// Returns the positions of the measurements in the same direction, given by its angles.
 [[nodiscard]] std::vector<Eigen::Index> same_directions(const std::vector<location>& locations,
-                                                        const half_difference& place, double limit);
+                                                        const half_difference& angles, double limit);
 
 /// Returns the standard deviation of a value's noise in the metric's domain.
 template <error_metric Metric>
@@ -175,9 +175,8 @@ template <error_metric Metric>
 /// If part and reference reflect alike (within the tolerance), have the stated noise, and were measured in the same
 /// directions, `conforms(a)` is false with a probability of at most a. For predicted directions, this holds on average
 /// over measured materials, but not for each material: docs/results/conformity.md. Noise shared by channels or
-/// directions, such as that of a drifting lamp, is not modelled: allow for it by a tolerance. With a tolerance, each
-/// statistic is its minimum over all allowed differences. Negative values count as zero; if noise causes them, state
-/// dark noise.
+/// directions, such as a lamp's drift, is not modelled: allow for it by a tolerance. With a tolerance, each statistic
+/// is its minimum over all allowed differences. Negative values count as zero; if noise causes them, state dark noise.
 ///
 /// O((n + r)^2 k + r^3 + (n c)^3) for k components. Throws gonio::error for impossible options, for a part without
 /// noise, if part and reference have different channels, and for more than 2,500 samples of the part, 6,000 of both, or

@@ -15,9 +15,9 @@ namespace gonio {
 /// - the value does not contain the cosine of the incident angle;
 /// - it is zero if either direction is at or below the horizon;
 /// - it is finite and reciprocal (f(wi, wo) = f(wo, wi)) up to rounding;
-/// - it is isotropic up to rounding, unless the type says that it may be anisotropic: the material then has the axes of
-///   the local frame, and what needs an isotropic one, like a table over half and difference angles, must not be given
-///   it;
+/// - it is isotropic up to rounding, unless its type declares that it may be anisotropic. An anisotropic material has
+///   the axes of the local frame. Do not pass it to code that needs an isotropic one, like a table over half and
+///   difference angles;
 /// - evaluation is thread safe, does not allocate and does not throw.
 ///
 /// With a model of the library:
@@ -59,7 +59,8 @@ concept brdf = requires(const F& f, const direction& wi, const direction& wo) {
   noexcept->std::convertible_to<rgb>;
 };
 
-/// A reference to a BRDF, such as a table of many megabytes that two objects share. The BRDF must outlive it.
+/// A reference to a BRDF, such as a table of many megabytes that two objects share. The BRDF must outlive the
+/// reference.
 template <class Brdf>
 class brdf_view {
  public:

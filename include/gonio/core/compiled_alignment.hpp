@@ -1,8 +1,8 @@
 #pragma once
-/// A program and the library that it links must align Eigen's matrices in the same way, which depends on -march and
-/// EIGEN_MAX_ALIGN_BYTES. Otherwise memory would be freed with the wrong function. If the alignments differ, the
-/// program does not link: the linker reports that `library_is_compiled_for_alignment<static, dynamic>` is missing, with
-/// the program's alignments in bytes.
+/// A program and the library that it links must align Eigen's matrices in the same way. The alignment depends on -march
+/// and EIGEN_MAX_ALIGN_BYTES. If the alignments differed, memory would be freed with the wrong function. Such a program
+/// therefore does not link: the linker reports that `library_is_compiled_for_alignment<static, dynamic>` is missing,
+/// with the program's alignments in bytes.
 
 #include <gonio/core/compiled.hpp>
 

@@ -8,7 +8,7 @@
 
 namespace gonio {
 
-/// A piece of a message: text, or a number formatted like std::to_string does. Refers to the given text without copying
+/// A piece of a message: text, or a number, formatted as by std::to_string. Refers to the given text without copying
 /// it.
 class message_part {
  public:
@@ -57,7 +57,8 @@ class error : public std::runtime_error {
 /// if (found != expected) gonio::refuse({"row ", row, " has ", found, " values, expected ", expected});
 /// ```
 [[noreturn]] void refuse(const std::string& sentence);
-/// Joins the parts to the sentence, and throws gonio::error or aborts. Joining them here keeps the callers' code small.
+/// Joins the parts into a sentence, and throws gonio::error or aborts. Joining the parts here keeps the callers' code
+/// small.
 [[noreturn]] void refuse(std::initializer_list<message_part> parts);
 
 }  // namespace gonio

@@ -12,9 +12,9 @@
 
 namespace gonio {
 
-/// Returns the contribution of each wavelength to red, green and blue (3 x wavelengths) of a reflectance that is linear
-/// between the wavelengths and constant outside, as renderers read spectra. Integrates in steps of 1 nm. Throws
-/// gonio::error for wavelengths that `spectral_colour` refuses.
+/// Returns a matrix (3 x wavelengths) that converts reflectances at the wavelengths to red, green and blue. The
+/// spectrum is linear between the wavelengths and constant outside, as renderers read spectra. Integrates in steps of 1
+/// nm. Throws gonio::error for wavelengths that `spectral_colour` refuses.
 [[nodiscard]] inline Eigen::MatrixXd interpolated_colour(std::span<const double> wavelengths) {
   static_cast<void>(spectral_colour(wavelengths));  // throws for an invalid spectrum
   std::vector<double> fine;

@@ -23,16 +23,16 @@ class k_d_tree {
   k_d_tree(const k_d_tree&) = delete;
   k_d_tree& operator=(const k_d_tree&) = delete;
 
-  /// Writes the indices of the `count` nearest points, or of all if there are fewer, and their squared distances, the
-  /// nearest first. Returns the number of points written. O(count log n); does not allocate.
-  Eigen::Index nearest(const double* place, Eigen::Index count, std::uint32_t* numbers, double* squared) const {
-    return static_cast<Eigen::Index>(tree_.knnSearch(place, static_cast<std::size_t>(count), numbers, squared));
+  /// Writes the indices of the `count` points nearest to `query`, or of all if there are fewer, and their squared
+  /// distances, the nearest first. Returns the number of points written. O(count log n); does not allocate.
+  Eigen::Index nearest(const double* query, Eigen::Index count, std::uint32_t* numbers, double* squared) const {
+    return static_cast<Eigen::Index>(tree_.knnSearch(query, static_cast<std::size_t>(count), numbers, squared));
   }
 
-  /// Returns the indices of the points within a radius, always in the same order.
-  [[nodiscard]] std::vector<Eigen::Index> within(double radius, const double* place) const {
+  /// Returns the indices of the points within a radius of `query`, always in the same order.
+  [[nodiscard]] std::vector<Eigen::Index> within(double radius, const double* query) const {
     std::vector<std::pair<std::uint32_t, double>> found;
-    tree_.radiusSearch(place, radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));
+    tree_.radiusSearch(query, radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));
     std::vector<Eigen::Index> numbers;
     numbers.reserve(found.size());
     for (const auto& [number, square] : found) numbers.push_back(number);

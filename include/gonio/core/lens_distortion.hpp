@@ -51,12 +51,12 @@ class lens_camera {
   [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return pinhole_.position(); }
 
   /// Returns the ray through a location of the image; pixel centres are at 0.5, 1.5 and so on. If the location is
-  /// outside of the image and beyond a fold of the distortion, returns the pinhole's ray. Uses about five steps of
+  /// outside of the image and past a fold of the distortion, returns the pinhole's ray. Uses about five steps of
   /// Newton's method.
   [[nodiscard]] ray ray_through(double column, double row) const noexcept;
 
-  /// Returns the (column, row) at which a point is seen; nothing if it is behind the camera, or farther from the axis
-  /// than the corners of the image.
+  /// Returns the (column, row) at which a point is seen; nothing if the point is behind the camera, or farther from the
+  /// axis than the corners of the image.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const noexcept;
 
   /// Returns the angle in radians that a pixel in the centre of the image covers.

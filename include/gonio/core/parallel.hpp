@@ -41,8 +41,8 @@ void run_blocks(Eigen::Index count, Eigen::Index block_size, block_body body, th
 }  // namespace detail
 
 /// Calls `body(block)` once for each block of at most `block_size` indices of [0, count), in any order and
-/// concurrently. If a body throws, no new blocks start. After all threads have stopped, the exception is rethrown; if
-/// several bodies have thrown, that of the block with the smallest indices.
+/// concurrently. If a body throws, no new blocks start. After all threads have stopped, the exception of the throwing
+/// block with the smallest indices is rethrown.
 template <class Body>
 void for_each_block(Eigen::Index count, Eigen::Index block_size, Body&& body, thread_count threads = {}) {
   const auto call = [](void* held, block range) { (*static_cast<std::remove_reference_t<Body>*>(held))(range); };

@@ -66,8 +66,8 @@ class pinhole_camera {
     return {position_, (rotation_.transpose() * seen).normalized()};
   }
 
-  /// Returns the (column, row) at which a point is seen, inside or outside of the image; nothing if it is behind the
-  /// camera.
+  /// Returns the (column, row) at which a point is seen, inside or outside of the image; nothing if the point is behind
+  /// the camera.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const noexcept {
     const Eigen::Vector3d seen = rotation_ * (point - position_);
     if (!(seen.z() > 0.0)) return {};

@@ -36,7 +36,7 @@ using rgb = Eigen::Array3d;
 
 namespace detail {
 
-/// Returns CIELAB's function of a channel of XYZ divided by that of white: the cube root, but linear near black.
+/// Returns CIELAB's function of the ratio of an XYZ channel to that of white: the cube root, but linear near black.
 [[nodiscard]] inline double lab_curve(double relative) noexcept {
   constexpr double knee = 6.0 / 29.0;
   return relative > knee * knee * knee ? std::cbrt(relative) : relative / (3.0 * knee * knee) + 4.0 / 29.0;

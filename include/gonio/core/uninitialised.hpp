@@ -1,5 +1,5 @@
 #pragma once
-/// Memory for tables that are filled once. Writing zeros first, by one thread, would touch all of its pages.
+/// Memory for tables that are filled once. Writing zeros first, by one thread, would touch all pages of a table.
 
 #include <memory>
 #include <utility>
@@ -17,12 +17,12 @@ struct uninitialised_allocator : std::allocator<T> {
   using std::allocator<T>::allocator;
 
   template <class Element>
-  void construct(Element* place) noexcept(noexcept(::new (static_cast<void*>(place)) Element)) {
-    ::new (static_cast<void*>(place)) Element;
+  void construct(Element* element) noexcept(noexcept(::new (static_cast<void*>(element)) Element)) {
+    ::new (static_cast<void*>(element)) Element;
   }
   template <class Element, class... Arguments>
-  void construct(Element* place, Arguments&&... arguments) {
-    ::new (static_cast<void*>(place)) Element(std::forward<Arguments>(arguments)...);
+  void construct(Element* element, Arguments&&... arguments) {
+    ::new (static_cast<void*>(element)) Element(std::forward<Arguments>(arguments)...);
   }
 };
 

@@ -49,8 +49,8 @@ inline void prefetch(const float* numbers, Eigen::Index count) {
 /// Returns the square root of the sum of a[i]^2, even if these squares overflow or underflow.
 [[nodiscard]] double norm(const double* a, Eigen::Index count);
 
-/// Returns the power of two by which to multiply a positive length to bring it to [1/2, 1), or the nearest one that a
-/// double can hold; 1 for zero.
+/// Returns the power of two that scales a positive length to [1/2, 1), or the nearest one that a double can hold; 1 for
+/// zero.
 [[nodiscard]] double near_inverse(double length);
 
 /// Add factor * a[i] to sum[i].

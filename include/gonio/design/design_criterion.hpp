@@ -65,8 +65,8 @@ void require_positive_eta(double eta);
 
 /// D-optimality. Tikhonov's penalty eta is the prior c ~ N(0, s^2 / eta I) of weights c, if measurements have noise of
 /// variance s^2. After measurements with rows R, the covariance of the weights is s^2 (R'R + eta I)^-1. The criterion
-/// is the logarithm of the volume of this covariance's ellipsoid, relative to that of the prior (Chaloner and
-/// Verdinelli 1995, "Bayesian Experimental Design: A Review", doi:10.1214/ss/1177009939). O(n^2 k).
+/// is the logarithm of the volume of this covariance's ellipsoid, relative to the prior's (Chaloner and Verdinelli
+/// 1995, "Bayesian Experimental Design: A Review", doi:10.1214/ss/1177009939). O(n^2 k).
 class d_optimality {
  public:
   /// Throws gonio::error unless eta is positive.
@@ -79,8 +79,8 @@ class d_optimality {
 };
 static_assert(design_criterion<d_optimality>);
 
-/// A-optimality: the expected squared error, for the covariance of the weights c that `d_optimality` uses. The error is
-/// that of the reconstruction Q c summed over all cells, so each weight counts by its effect on the cells. The value is
+/// A-optimality: the expected squared error, for the covariance of the weights c that `d_optimality` uses. The error of
+/// the reconstruction Q c is summed over all cells, so each weight counts by its effect on the cells. The value is
 /// relative to the error without measurements. O(n^2 k).
 class a_optimality {
  public:

@@ -35,7 +35,7 @@ struct expected_error_options {
 ///
 ///   |Q (Q+ - (SQ)+_eta S) y_i|^2 = c_i'M c_i - 2 w_i . b_i + b_i' (W Y') b_i.
 ///
-/// A measurement may also have an error of its own, of variance v: the detector's, or that of a direction
+/// A measurement may also have an error of its own, of variance v, from the detector or from an inexact direction
 /// (`angular_error_penalty`). The variance of a weight over the observations is 1 / m, so a reconstruction that expects
 /// this error penalises the measurement by eta + m v: K = Y Y' + eta I + m diag(v). Each squared error grows by the
 /// average effect of these errors, the sum of v_i [K^-1 W Y' K^-1]_ii. For independent noise, v is the same for all
@@ -52,8 +52,8 @@ struct expected_error_options {
 /// the squared errors are the diagonal of L^-1 X L^-1. The contribution of measurement errors is computed from the
 /// basis of all materials.
 ///
-/// Cells outside of the basis are ignored. If the basis has fewer components than there are, the variance of the
-/// missing ones is ignored, too. That variance is the same for all S, except for its effect as noise.
+/// Cells outside of the basis are ignored. If the basis does not have all components, the variance of the missing ones
+/// is ignored, too. That variance is the same for all S, except for its effect as noise.
 class expected_error {
  public:
   /// The inputs for n measurements and m observations: Y and W, one row for each measurement, and the noise. Y and W

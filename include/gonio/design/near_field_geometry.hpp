@@ -53,7 +53,7 @@ class near_field_geometry {
   /// Returns the candidate whose light and camera are nearest to the directions of a pair.
   [[nodiscard]] Eigen::Index nearest(const direction_pair& pair) const;
 
-  /// Returns one direction for each pixel whose ray meets the disc. If no ray does, returns the direction of the
+  /// Returns one direction for each pixel whose ray meets the disc. If no ray meets it, returns the direction of the
   /// centre.
   [[nodiscard]] std::vector<half_difference> directions(Eigen::Index candidate) const;
 
@@ -64,7 +64,7 @@ class near_field_geometry {
     return fixed ? *fixed : options_.step * steps;
   }
 
-  [[nodiscard]] grid_step place(Eigen::Index candidate) const noexcept {
+  [[nodiscard]] grid_step position_of(Eigen::Index candidate) const noexcept {
     const auto n = static_cast<int>(candidate);
     return {n / (extents_[1] * extents_[2]), n / extents_[2] % extents_[1], n % extents_[2]};
   }

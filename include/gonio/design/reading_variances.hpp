@@ -14,7 +14,7 @@
 
 namespace gonio::design {
 
-/// Returns the error variance of a reading at each location. The effects of noise and dark signal are those on the
+/// Returns the error variance of a reading at each location. The effects of noise and dark signal are computed for the
 /// prior's mean material; the effect of angular errors is averaged over the prior's materials. O(locations), times k
 /// components with an angular error.
 template <error_metric Metric>

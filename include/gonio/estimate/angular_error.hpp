@@ -15,7 +15,7 @@ namespace gonio {
 namespace detail {
 
 /// Returns eight pairs in which either the light or the viewer is turned by `angle` radians in one of four directions.
-[[nodiscard]] std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle);
+[[nodiscard]] std::array<direction_pair, 8> pairs_with_angular_error(const direction_pair& meant, double angle);
 
 }  // namespace detail
 
@@ -33,7 +33,7 @@ template <error_metric Metric>
   const Eigen::RowVectorXd row = row_at(basis, here);
   const double mean = offset_at(basis, here), m = static_cast<double>(basis.coefficients().rows());
   double sum = 0.0;
-  for (const direction_pair& pair : detail::misplaced_pairs(meant, angle)) {
+  for (const direction_pair& pair : detail::pairs_with_angular_error(meant, angle)) {
     const location there = locate(basis.cells(), to_half_difference(pair.wi, pair.wo));
     const double reflectance = basis.metric().inverse(offset_at(basis, there), there);
     const double wrong = basis.metric().forward(reflectance, here) - mean;

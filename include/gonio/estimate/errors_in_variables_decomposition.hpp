@@ -75,13 +75,13 @@ class errors_in_variables_decomposition {
   [[nodiscard]] displaced around(const location& meant) const {
     const direction_pair pair = to_directions(meant.angles);
     displaced all;
-    for (Eigen::Index place = 0; place < std::ssize(all.rows); ++place) {
-      const direction wi = turned_above_horizon(pair.wi, angle_, side(place / sides)),
-                      wo = turned_above_horizon(pair.wo, angle_, side(place % sides));
+    for (Eigen::Index number = 0; number < std::ssize(all.rows); ++number) {
+      const direction wi = turned_above_horizon(pair.wi, angle_, side(number / sides)),
+                      wo = turned_above_horizon(pair.wo, angle_, side(number % sides));
       const location there = locate(prior_.cells(), to_half_difference(wi, wo));
-      all.rows[place] = row_at(prior_, there);
+      all.rows[number] = row_at(prior_, there);
       const double reflectance = prior_.metric().inverse(offset_at(prior_, there), there);
-      all.offsets[place] = prior_.metric().forward(reflectance, meant);
+      all.offsets[number] = prior_.metric().forward(reflectance, meant);
     }
     return all;
   }
@@ -100,13 +100,13 @@ class errors_in_variables_decomposition {
                  Eigen::VectorXd::Zero(n)};
     for_each_sample(measured, [&](Eigen::Index i, const location& meant, const displaced& seen) {
       constexpr double share = 1.0 / static_cast<double>(sides * sides);
-      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place) {
-        means.rows.row(i) += share * seen.rows[place];
-        means.offsets[i] += share * seen.offsets[place];
+      for (Eigen::Index number = 0; number < std::ssize(seen.rows); ++number) {
+        means.rows.row(i) += share * seen.rows[number];
+        means.offsets[i] += share * seen.offsets[number];
       }
-      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place)
-        means.sample_noise_penalty[i] += share * ((seen.rows[place] - means.rows.row(i)).squaredNorm() +
-                                                  m * square(seen.offsets[place] - means.offsets[i]));
+      for (Eigen::Index number = 0; number < std::ssize(seen.rows); ++number)
+        means.sample_noise_penalty[i] += share * ((seen.rows[number] - means.rows.row(i)).squaredNorm() +
+                                                  m * square(seen.offsets[number] - means.offsets[i]));
       for (Eigen::Index c = 0; c < means.right.cols(); ++c)
         means.right(i, c) = prior_.metric().forward(measured.values(i, c), meant) - means.offsets[i];
     });
@@ -119,10 +119,10 @@ class errors_in_variables_decomposition {
     const Eigen::Index channels = weights.cols();
     Eigen::VectorXd etas = Eigen::VectorXd::Zero(means.offsets.size());
     for_each_sample(measured, [&](Eigen::Index i, const location&, const displaced& seen) {
-      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place) {
-        const Eigen::RowVectorXd change = seen.rows[place] - means.rows.row(i);
+      for (Eigen::Index number = 0; number < std::ssize(seen.rows); ++number) {
+        const Eigen::RowVectorXd change = seen.rows[number] - means.rows.row(i);
         for (Eigen::Index c = 0; c < channels; ++c)
-          etas[i] += square(change.dot(weights.col(c)) + seen.offsets[place] - means.offsets[i]) /
+          etas[i] += square(change.dot(weights.col(c)) + seen.offsets[number] - means.offsets[i]) /
                      static_cast<double>(channels);
       }
       etas[i] *= observations() / static_cast<double>(seen.rows.size());
@@ -169,9 +169,9 @@ template <error_metric Metric>
   sample_set weighted(samples.channels());
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
     const double error = error_variance_at(model, samples.directions(i).angles()),
-                 misplaced = angular_error_penalty(prior, samples.directions(i).pair(), angle) / observations;
+                 angular_variance = angular_error_penalty(prior, samples.directions(i).pair(), angle) / observations;
     weighted.add(samples.directions(i), samples.values(i),
-                 rgb(samples.weight(i).of_each() * error / (error + misplaced)), samples.aperture(i));
+                 rgb(samples.weight(i).of_each() * error / (error + angular_variance)), samples.aperture(i));
   }
   return weighted;
 }

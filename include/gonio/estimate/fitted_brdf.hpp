@@ -72,16 +72,16 @@ class fitted_brdf {
     return values(locate(basis_.cells(), to_half_difference(wi, wo)));
   }
   /// Returns the reflectance in sr^-1 in each channel at a location on the basis' cells, at least zero.
-  [[nodiscard]] Eigen::ArrayXd values(const location& place) const {
+  [[nodiscard]] Eigen::ArrayXd values(const location& here) const {
     if constexpr (basis<Basis>) {
-      const Eigen::RowVectorXd row = row_at(basis_, place);
-      const double offset = offset_at(basis_, place);
+      const Eigen::RowVectorXd row = row_at(basis_, here);
+      const double offset = offset_at(basis_, here);
       Eigen::ArrayXd all(weights_.cols());
       for (Eigen::Index c = 0; c < all.size(); ++c)
-        all[c] = reflectance_of(basis_.metric(), dot(row.data(), &weights_(0, c), row.size()) + offset, place);
+        all[c] = reflectance_of(basis_.metric(), dot(row.data(), &weights_(0, c), row.size()) + offset, here);
       return all;
     } else {
-      return at(place);
+      return at(here);
     }
   }
 
@@ -92,10 +92,10 @@ class fitted_brdf {
     Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(weights_.rows(), weights_.cols());
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return slopes;
     constexpr double step = 1e-4;
-    const location place = locate(basis_.cells(), to_half_difference(wi, wo));
-    const Eigen::RowVectorXd row = row_at(basis_, place);
-    const double offset = offset_at(basis_, place);
-    const auto reflectance = [&](double y) { return basis_.metric().inverse(y, place); };
+    const location here = locate(basis_.cells(), to_half_difference(wi, wo));
+    const Eigen::RowVectorXd row = row_at(basis_, here);
+    const double offset = offset_at(basis_, here);
+    const auto reflectance = [&](double y) { return basis_.metric().inverse(y, here); };
     for (Eigen::Index c = 0; c < weights_.cols(); ++c) {
       const double y = dot(row.data(), &weights_(0, c), row.size()) + offset;
       if (reflectance(y) > 0.0)
@@ -108,12 +108,12 @@ class fitted_brdf {
   [[nodiscard]] const valid_cells& cells() const noexcept { return basis_.cells(); }
 
   /// Returns the reflectance in sr^-1 at a location on the basis' cells, at least zero.
-  [[nodiscard]] rgb at(const location& place) const noexcept {
+  [[nodiscard]] rgb at(const location& here) const noexcept {
     if (kinds_.are_wavelengths()) {
-      const Eigen::ArrayXd spectrum = values(place);
+      const Eigen::ArrayXd spectrum = values(here);
       return kinds_.colour({spectrum.data(), static_cast<std::size_t>(spectrum.size())});
     }
-    return reflectance(mapped_at(place), place);
+    return reflectance(mapped_at(here), here);
   }
 
   /// Returns the value at a cell of the basis in the metric's domain: a colour, or the first three channels. If there
@@ -128,8 +128,8 @@ class fitted_brdf {
   /// Expands the fit to a table of colours. Multiplies the basis' rows by the weights, which reads the basis once. If
   /// `cells` are not the cells of the basis, interpolates the three channels between the cells of the basis. Computed
   /// rows are evaluated at the cells of the table, unless the basis combines its functions at all of its own cells
-  /// (`combining_basis`). Wavelengths become colours, black if none is visible; `tabulate_spectra` keeps them. Same
-  /// bytes for any number of threads.
+  /// (`combining_basis`). Wavelengths become colours, black if none is visible; `tabulate_spectra` keeps them. Any
+  /// number of threads gives the same bytes.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const;
 
   /// Expands a fit of wavelengths. Costs one table of colours for every three wavelengths. Throws gonio::error for

@@ -97,12 +97,13 @@ template <sample_range Samples>
 }
 
 /// Returns the contrast of a table, whose cells are samples of weight 1. Throws gonio::error if the grid has no cell in
-/// one of the regions. O(cells), same bytes for any number of threads.
+/// one of the regions. O(cells). Any number of threads gives the same bytes.
 [[nodiscard]] double highlight_contrast(const log_relative& reference, const brdf_table& table,
                                         const highlight_regions& regions = {}, thread_count threads = {});
 
 /// Returns the contrast of each material of a set, in the order of the set. Throws gonio::error if the grid has no cell
-/// in one of the regions, or if the set is not complete. O(cells materials), same bytes for any number of threads.
+/// in one of the regions, or if the set is not complete. O(cells materials). Any number of threads gives the same
+/// bytes.
 [[nodiscard]] Eigen::ArrayXd highlight_contrasts(const log_relative& reference, const material_set& materials,
                                                  const highlight_regions& regions = {}, thread_count threads = {});
 

@@ -31,7 +31,7 @@ struct outlying_sample {
   Eigen::Index number = 0;   ///< its position among the samples
   rgb measured;              ///< sr^-1
   rgb predicted;             ///< sr^-1, from all samples that are not contradicted
-  double deviation = 0.0;    ///< standard deviation of prediction and sample combined, in the metric's domain
+  double deviation = 0.0;    ///< combined standard deviation of prediction and sample, in the metric's domain
   double probability = 0.0;  ///< probability that the sample is wrong
   /// The names of the three channels: colours, or ranges of wavelengths (`channels::names_of_three`).
   std::array<std::string, 3> channel_names = channels().names_of_three();
@@ -56,9 +56,9 @@ struct inliers {
   [[nodiscard]] std::vector<Eigen::Index> kept() const;
 };
 
-/// Returns the weight in a fit of a sample that is wrong with some probability: 1 / (1 + 10 p / (1 - p)). The weight
-/// 1 - p would move the estimate by more than 1 - p of the way to the sample, because the error of a right sample is
-/// about a tenth of what the other samples leave unknown there.
+/// Returns the weight, in a fit, of a sample that is wrong with probability p: 1 / (1 + 10 p / (1 - p)). A weight of
+/// 1 - p would move the estimate by more than 1 - p of the way to the sample, because the error variance of a right
+/// sample is about a tenth of the variance that the other samples leave.
 [[nodiscard]] inline double inlier_weight(double probability_wrong) noexcept {
   const double right = 1.0 - probability_wrong;
   return right / (right + 10.0 * probability_wrong);

@@ -22,8 +22,8 @@ struct streamed_soft_specular {
 /// Learns the principal components of the soft and of the specular materials, relative to the median of all materials.
 /// Splits the materials by the contrast of their highlights, by default at the median contrast. Makes one pass over the
 /// cells for medians and contrasts, then the passes of learn_streamed_pca for each half, which read the cells of all
-/// materials. O(cells m^2) for m columns, or O(cells m components) in a random subspace. The same bytes for any number
-/// of threads. `options.share` is not used. Throws gonio::error as learn_soft_specular_prior does, and whatever
+/// materials. O(cells m^2) for m columns, or O(cells m components) in a random subspace. Any number of threads gives
+/// the same bytes. `options.share` is not used. Throws gonio::error as learn_soft_specular_prior does, and whatever
 /// `materials.read` throws.
 ///
 /// ```cpp

@@ -73,7 +73,7 @@ class leave_one_material_out_error {
   struct left_out {
     Eigen::MatrixXd t, n, mt, mn;  // V't, V'N, V'M t, V'M N: r x channels
     Eigen::MatrixXd nmn, nmt;      // N'M N, N'M t
-    Eigen::VectorXd energy;        // t'M t of each channel
+    Eigen::VectorXd tmt;           // t'M t of each channel
   };
 
   template <error_metric Metric>
@@ -81,7 +81,7 @@ class leave_one_material_out_error {
                                      const Eigen::VectorXd& weights, const mapped_noise& mapped, thread_count threads) {
     const Eigen::Index k = basis.size();
     const auto observations = static_cast<double>(basis.coefficients().rows());
-    const double beyond = (1.0 / basis.explained_variance() - 1.0) / observations;
+    const double missing = (1.0 / basis.explained_variance() - 1.0) / observations;
     return sum_over_blocks(
         locations.size(), 256, sums(k),
         [&](sums& sum, block range) {
@@ -89,9 +89,9 @@ class leave_one_material_out_error {
           Eigen::MatrixXd columns(k, count);
           Eigen::VectorXd variances = mapped.variance.segment(begin, count);
           for (Eigen::Index i = 0; i < count; ++i) {
-            const location& place = locations[range.begin + i];
-            read_row_at(basis, place, Eigen::Map<Eigen::RowVectorXd>(columns.col(i).data(), k));
-            variances[i] += beyond * columns.col(i).squaredNorm();
+            const location& here = locations[range.begin + i];
+            read_row_at(basis, here, Eigen::Map<Eigen::RowVectorXd>(columns.col(i).data(), k));
+            variances[i] += missing * columns.col(i).squaredNorm();
           }
           sum.add(std::move(columns), weights.segment(begin, count), mapped.shift.segment(begin, count), variances);
         },
@@ -104,23 +104,23 @@ class leave_one_material_out_error {
   void initialise(const sums& all, const Eigen::VectorXd& singular_values, const Eigen::MatrixXf& coefficients,
                   Eigen::Index channels);
 
-  /// Computes the eigenvectors V and eigenvalues l of `gram` without those that are rounding errors, and all that does
-  /// not depend on the material. `energies` is the diagonal of M.
-  void decompose(const Eigen::VectorXd& energies, const sums& all);
+  /// Computes the eigenvectors V and eigenvalues l of `gram` without those that are rounding errors, and everything
+  /// else that does not depend on the material. `squares` is the diagonal of M.
+  void decompose(const Eigen::VectorXd& squares, const sums& all);
 
   /// Returns the state of a left-out material. `own` has the material's rows of C as columns.
-  [[nodiscard]] left_out leave_out(const Eigen::VectorXd& energies, const Eigen::MatrixXd& own,
+  [[nodiscard]] left_out leave_out(const Eigen::VectorXd& squares, const Eigen::MatrixXd& own,
                                    double observations) const;
 
   [[nodiscard]] double error_at(double eta) const;
 
   [[nodiscard]] Eigen::VectorXd squared_bias(const left_out& material, const Eigen::VectorXd& d) const;
 
-  Eigen::VectorXd values_;        // l, ascending
-  Eigen::MatrixXd vectors_;       // V
-  Eigen::MatrixXd norm_;          // V'M V
-  Eigen::MatrixXd noise_energy_;  // element-wise product of V'M V and the noise in V'A'W y
-  Eigen::VectorXd shift_;         // mean of the noise in V'A'W y
+  Eigen::VectorXd values_;      // l, ascending
+  Eigen::MatrixXd vectors_;     // V
+  Eigen::MatrixXd norm_;        // V'M V
+  Eigen::MatrixXd noise_norm_;  // element-wise product of V'M V and the noise in V'A'W y
+  Eigen::VectorXd shift_;       // mean of the noise in V'A'W y
   std::vector<left_out> materials_;
   thread_count threads_;
 };

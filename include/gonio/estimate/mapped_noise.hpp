@@ -29,8 +29,8 @@ namespace detail {
 }  // namespace detail
 
 /// Maps Gaussian noise whose standard deviation is relative to the value (0.02 is 2 %), for the values of the basis'
-/// mean material. Averages over 64 quantiles. They exclude errors rarer than one in a hundred, which are outliers, not
-/// noise. Throws gonio::error for noise that is negative or not finite. O(locations).
+/// mean material. Averages over 64 quantiles. The quantiles exclude errors rarer than one in a hundred, which are
+/// outliers, not noise. Throws gonio::error for noise that is negative or not finite. O(locations).
 template <basis Basis>
 [[nodiscard]] mapped_noise map_noise(const Basis& functions, std::span<const location> locations, double noise,
                                      thread_count threads = {}) {

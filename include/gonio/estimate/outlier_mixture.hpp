@@ -52,7 +52,7 @@ struct outlier_mixture {
   static constexpr double smallest_scale = 0.01;
 
   /// Returns the density of an inlier's residual.
-  [[nodiscard]] double good_density(double residual) const noexcept { return density_on_tail(tail_weight(residual)); }
+  [[nodiscard]] double inlier_density(double residual) const noexcept { return density_on_tail(tail_weight(residual)); }
   /// Returns the density of an inlier's residual, given the residual's tail weight.
   [[nodiscard]] double density_on_tail(double tail) const noexcept {
     return (0.375 / scale) * (tail * tail * std::sqrt(tail));
@@ -61,8 +61,8 @@ struct outlier_mixture {
   /// Returns the probability that a measurement is an inlier, given its residual and the density of outliers at the
   /// measurement's logarithm.
   [[nodiscard]] double probability(double residual, double outliers) const noexcept {
-    const double good = inlier_fraction * good_density(residual);
-    return good / (good + (1.0 - inlier_fraction) * outliers);
+    const double inlier = inlier_fraction * inlier_density(residual);
+    return inlier / (inlier + (1.0 - inlier_fraction) * outliers);
   }
 
   /// Returns the weight of an inlier in a fit, which falls with the size of its residual.
@@ -124,8 +124,8 @@ struct automatic_weights {
 
   /// Returns the median residual of the inliers among some samples. Takes the fraction `inlier_fraction` of the samples
   /// with the smallest residuals as inliers.
-  [[nodiscard]] static double half_of_the_good(const std::vector<float>& residuals,
-                                               std::span<const Eigen::Index> samples, double inlier_fraction);
+  [[nodiscard]] static double median_of_inliers(const std::vector<float>& residuals,
+                                                std::span<const Eigen::Index> samples, double inlier_fraction);
 
   /// Returns the mixture with its scale times `ratio`, at most 1: a larger scale would carry no information.
   [[nodiscard]] static outlier_mixture rescaled(const outlier_mixture& mixture, double ratio);

@@ -34,16 +34,16 @@ struct reflectance_interval {
 enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 
 /// Returns half the width of an interval in standard deviations of the model: a conformal factor (Lee, Barber and
-/// Willett 2023, doi:10.48550/arXiv.2306.06342). The factor is a quantile of the errors, in these deviations, of
-/// reconstructing measured materials whose families are not in the prior, from samples in all directions, below some
+/// Willett 2023, doi:10.48550/arXiv.2306.06342). The factor is a quantile of reconstruction errors in units of these
+/// deviations, for measured materials whose families are not in the prior, and samples in all directions, below some
 /// theta_h, or in planes. The interval holds for such materials, averaged over directions. `unknown` is the variance
-/// after measuring divided by the variance before. It changes only the 68 % factor, because errors near samples have
-/// heavier tails than errors far from all samples. The number of samples matters only above 500.
+/// after measuring divided by the variance before. `unknown` changes only the 68 % factor, because errors near samples
+/// have heavier tails than errors far from all samples. The number of samples matters only above 500.
 [[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples, double unknown) noexcept;
 
 /// The uncertainty of a reconstruction in a few numbers.
 struct certainty {
-  /// The median over all directions of half the width of the 68 % interval, relative to the value.
+  /// Half the width of the 68 % interval relative to the value: the median over all directions.
   double known_to = 0.0;
   /// The median of `known_to` over the directions whose light or viewer is more than 80 degrees from the normal.
   double known_to_at_grazing = 0.0;
@@ -61,7 +61,7 @@ struct sample_residual {
   Eigen::Index number = 0;          ///< its position among the given samples
   rgb measured;                     ///< sr^-1
   rgb predicted;                    ///< sr^-1, from all other samples
-  double relative_deviation = 0.0;  ///< standard deviation of prediction and sample combined
+  double relative_deviation = 0.0;  ///< combined standard deviation of prediction and sample
   double disagreement = 0.0;        ///< `sample_predictions::disagreement`
   bool rejected = false;
 };

@@ -1,9 +1,9 @@
 #pragma once
 /// Reconstructs a material from samples, with the uncertainty of every value and the samples that disagree. `gonio
 /// reconstruct` does this by default. Principal components (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12)
-/// are fitted together with a Gaussian process for all that the components cannot express (Kennedy and O'Hagan 2001,
-/// doi:10.1111/1467-9868.00294). With few samples, the components mainly determine the result; with many, it follows
-/// the samples. Results on real materials, with families left out: docs/results/real-materials.md.
+/// are fitted together with a Gaussian process for the part that the components cannot express (Kennedy and O'Hagan
+/// 2001, doi:10.1111/1467-9868.00294). With few samples, the components mainly determine the result; with many, it
+/// follows the samples. Results on real materials, with families left out: docs/results/real-materials.md.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/random.hpp>
@@ -65,9 +65,9 @@ class reconstruction {
   /// Returns the covariance of a material before it is measured.
   [[nodiscard]] const expected_covariance& expected() const noexcept { return expected_; }
 
-  /// Fits samples in any channels, all channels by one process. Each wavelength is fitted as a grey material. Inliers
-  /// are found by the samples' colours, and by three bands of their invisible wavelengths; before that, spikes of
-  /// spectra are replaced (`replace_spikes`). For n samples, k components and c centres: O(n^2 (n + k)) up to
+  /// Fits samples in any channels, all channels by one process. Each wavelength is fitted as a grey material. First,
+  /// spikes of spectra are replaced (`replace_spikes`). Then inliers are found by the samples' colours, and by three
+  /// bands of their invisible wavelengths. For n samples, k components and c centres: O(n^2 (n + k)) up to
   /// `most_centres` samples, O(n (k + c)^2) for more. Throws gonio::error for unusable samples.
   ///
   /// A reading through an aperture is the value in a single direction times a factor. The factor is the mean of the fit

@@ -20,8 +20,9 @@
 namespace gonio {
 
 /// Additional covariance for the uncertainty of a reconstruction. With it, the intervals contain the truth as often as
-/// stated. It would hardly improve the mean. Chosen on measured materials whose families were left out of the prior,
-/// from samples over all directions, below a theta_h and in planes: docs/decisions/0037-certainty-of-scans.md.
+/// stated. This covariance would hardly improve the mean. Chosen on measured materials whose families were left out of
+/// the prior, from samples over all directions, below a theta_h and in planes:
+/// docs/decisions/0037-certainty-of-scans.md.
 struct doubt_model {
   /// Variance of a material's deviation from its process. Only nearby samples determine this deviation.
   double variance = 1.0;
@@ -39,8 +40,8 @@ struct discrepancy_model {
   double variance = 0.02;         ///< variance of the discrepancy
   double error_variance = 0.007;  ///< variance of all other errors, independent at each measurement
   correlation_lengths lengths = {};
-  /// Additional error variance if light or viewer graze the surface. It falls by a factor of e for each 2.5 degrees of
-  /// the angle above the horizon of the lower of the two.
+  /// Additional error variance if light or viewer graze the surface. It falls by a factor of e for each 2.5 degrees
+  /// that the lower of the two is above the horizon.
   double grazing_variance = 0.05;
   doubt_model doubt = {};
   double noise = 0.0;  ///< standard deviation of the measurements, relative to their values: 0.02 is 2 %
@@ -52,7 +53,7 @@ struct discrepancy_model {
   Eigen::Index most_samples = 200'000;
 };
 
-/// Returns exp(-a / reach), where a is the angle in radians above the horizon of light or viewer, whichever is lower.
+/// Returns exp(-a / reach), where a is the angle in radians between the horizon and the lower of light and viewer.
 [[nodiscard]] double grazing_share(const half_difference& angles, double reach) noexcept;
 
 /// Returns the variance of a sample's error at some angles, without noise.
@@ -91,7 +92,7 @@ struct expected_covariance {
 struct sample_predictions {
   Eigen::MatrixXd mapped;     ///< n x channels: the samples themselves
   Eigen::MatrixXd mean;       ///< n x channels: predicted from other samples
-  Eigen::VectorXd deviation;  ///< n: standard deviation of prediction and sample combined
+  Eigen::VectorXd deviation;  ///< n: combined standard deviation of prediction and sample
 
   /// Returns, for each sample, the squared prediction error in units of its variance, averaged over channels: about 1
   /// if the model is right.
@@ -123,7 +124,7 @@ struct process_prediction {
 /// definite.
 class sample_process {
  public:
-  /// The weight, as a number of samples, of a scale of 1 when a scale is estimated.
+  /// When a scale is estimated, a scale of 1 counts as this many samples.
   static constexpr double known_before = 10.0;
 
   /// `mapped` has y as its values. The diagonal of E is `error_variances` divided by the samples' weights. If weights
@@ -167,16 +168,16 @@ class sample_process {
   [[nodiscard]] double scale() const;
   /// Returns the scale of S = k(X, X), the covariance without any errors: (known_before + y' K^-1 S K^-1 y) /
   /// (known_before + tr K^-1 S). Unlike this scale, `scale` also falls if many smooth samples show that their errors
-  /// are small, although this says nothing about locations far from them. O(n^3).
+  /// are small, although this says nothing about locations far from the samples. O(n^3).
   [[nodiscard]] double scale_of_material() const;
   /// Returns the standard deviation of the mapped value at one location, including the error of a measurement, for a
   /// scale of 1. `row` has the prior's k components at the location. Eq. 2.26. O(n (n + k)).
   [[nodiscard]] double deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const;
-  /// Returns the standard deviation of `deviation` before any measurement. O(k).
+  /// Returns the same as `deviation`, but before any measurement. O(k).
   [[nodiscard]] double deviation_before(const Eigen::RowVectorXd& row, const half_difference& angles) const;
   /// Predicts the values at p other locations, given their covariance before any measurement: Eq. 2.25 and 2.26,
   /// without errors of measurements and without the scale. O(n^3 + p^2 n).
-  [[nodiscard]] process_prediction predict(const located_rows& places, Eigen::MatrixXd covariance_before) const;
+  [[nodiscard]] process_prediction predict(const located_rows& others, Eigen::MatrixXd covariance_before) const;
 
   /// Returns how well the materials of the prior explain the samples. O(n^3).
   [[nodiscard]] gonio::familiarity familiarity() const;

@@ -15,7 +15,7 @@ namespace gonio {
 
 /// Regions of samples: at most six strips of theta_h with equal numbers of samples, each cut into at most four parts of
 /// theta_d. If there are at least eight samples, each region has at least eight. In smaller regions, the scale of
-/// residuals would be chance; with larger ones, small sets would have a single region.
+/// residuals would be a matter of chance; with larger regions, small sets would have a single region.
 class sample_regions {
  public:
   static constexpr Eigen::Index fewest_samples = 8;

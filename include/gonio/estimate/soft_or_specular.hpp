@@ -37,7 +37,7 @@ class soft_or_specular_fit {
     return (*std::get_if<1>(&fit_))(wi, wo);
   }
 
-  /// Tabulates the fit. Same bytes for any number of threads.
+  /// Tabulates the fit. Any number of threads gives the same bytes.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     return std::visit([&](const auto& fit) { return fit.tabulate(cells, threads); }, fit_);
   }
@@ -51,7 +51,7 @@ class soft_or_specular_fit {
 /// can be any estimators. The paper uses decompositions by the principal components of the soft and of the specular
 /// materials of a database.
 ///
-/// To distinguish soft from specular materials takes a sample in the peak and a sample out of the peak. Throws
+/// Distinguishing soft from specular materials takes a sample in the peak and a sample out of the peak. Throws
 /// gonio::error for measurements that lack either, for which `highlight_contrast` returns nothing; use a single prior
 /// of all materials for these. Of the sets of directions in the paper's Table 1, only the set of one direction lacks
 /// one of the two.

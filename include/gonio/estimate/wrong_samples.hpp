@@ -3,9 +3,9 @@
 /// disagreement is an error. Brightness and colour are judged separately, because an error of a single channel mainly
 /// changes the colour. Each either is right or has an error of large variance (Box and Tiao 1968,
 /// doi:10.1093/biomet/55.1.119). The covariance of the process includes deviations that neighbouring samples share,
-/// near the highlight or everywhere; their variances are those with the largest likelihood of the samples (Rasmussen
-/// and Williams, "Gaussian Processes for Machine Learning", 2006, section 5.4.1). The constants were chosen on measured
-/// materials and in-plane scans of synthetic highlights: docs/decisions/0020-wrong-samples.md.
+/// near the highlight or everywhere. The variances of these deviations maximise the likelihood of the samples
+/// (Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, section 5.4.1). The constants were chosen
+/// on measured materials and in-plane scans of synthetic highlights: docs/decisions/0020-wrong-samples.md.
 
 #include <gonio/estimate/sample_process.hpp>
 
@@ -42,12 +42,12 @@ struct rejection_rule {
   /// w of n samples are already in the set of wrong samples.
   double expected_number = 0.2, penalty = 1.2;
   /// The brightness is the mean of the channels. The colour is two orthonormal contrasts between them, whose
-  /// log-likelihoods are averaged because the contrasts of a material are alike. Colours of one material deviate less
-  /// than its brightness, and by how much differs from one material to another.
+  /// log-likelihoods are averaged because the contrasts of a material are alike. The colours of a material deviate less
+  /// than its brightness; the ratio differs from one material to another.
   property_rule brightness{};
   property_rule colour{.error_variance = 1.0, .scale = 0.3, .degrees_per_sample = 0.1};
 
-  /// The largest fraction of samples that the search calls wrong, but it may always call one wrong. It calls none wrong
+  /// The largest fraction of samples that the search calls wrong. The search may always call one sample wrong, but none
   /// if there are fewer than three samples.
   double largest_share = 0.6;
 
@@ -57,8 +57,8 @@ struct rejection_rule {
   double everywhere_penalty = 6.0, highlight_penalty = 3.0;
   correlation_lengths everywhere_lengths{0.05, 0.2, 0.4}, highlight_lengths{0.05, 0.5, 1.0};
   double highlight_reach = radians(4.0);  ///< theta_h
-  /// Variance by which right samples with grazing light or viewer deviate independently. It falls by a factor of e for
-  /// each `grazing_reach` in radians above the horizon (`grazing_share`).
+  /// Variance of the independent deviations of right samples with grazing light or viewer. It falls by a factor of e
+  /// for each `grazing_reach` in radians above the horizon (`grazing_share`).
   double grazing_variance = 0.36, grazing_reach = radians(2.5);
 };
 
@@ -70,11 +70,11 @@ struct wrong_sample {
 /// The result of judging the samples of a process: which are wrong. It can also judge other samples of the material.
 class judged_samples {
  public:
-  /// Returns the samples of which brightness or colour is wrong with a probability above one half, the most certainly
+  /// Returns the samples whose brightness or colour is wrong with a probability above one half, the most certainly
   /// wrong first.
   [[nodiscard]] const std::vector<wrong_sample>& wrong() const noexcept { return wrong_; }
   /// Returns the probability that each sample is wrong, assuming that the sets which the search found are right about
-  /// all other samples. It is at most one half for samples beyond `rejection_rule::largest_share`.
+  /// all other samples. The probability is one half for samples in excess of `rejection_rule::largest_share`.
   [[nodiscard]] const Eigen::VectorXd& probabilities() const noexcept { return probabilities_; }
   /// Returns the variances of the deviations that the samples share in brightness.
   [[nodiscard]] shared_deviation shared() const { return brightness_ ? brightness_->shared : shared_deviation{}; }
@@ -88,7 +88,7 @@ class judged_samples {
   friend judged_samples judge_samples(const sample_process& samples, const rejection_rule& rule,
                                       std::span<const std::vector<bool>> starts);
 
-  /// A property of the judged samples, and what is needed to judge other samples by it.
+  /// A property of the judged samples, with the data for judging other samples by this property.
   struct judged_property {
     property_rule rule;
     Eigen::MatrixXd values;    ///< n x 1 or n x 2

@@ -39,9 +39,9 @@ namespace detail {
 
 /// Locates a table's cells on the cells of a metric. A metric without cells does not depend on the location.
 template <error_metric Metric>
-class metric_places {
+class metric_locations {
  public:
-  metric_places(const valid_cells& cells, const Metric& metric)
+  metric_locations(const valid_cells& cells, const Metric& metric)
       : cells_(cells), metric_cells_(cells_of(metric, cells)), same_(cells_ == metric_cells_) {}
 
   [[nodiscard]] location operator()(Eigen::Index cell) const noexcept {
@@ -67,12 +67,12 @@ template <error_metric Metric>
 [[nodiscard]] squared_differences sum_of_squares(const brdf_table& estimate, const brdf_table& truth,
                                                  const Metric& metric, thread_count threads) {
   constexpr double smallest_cosine_weight = 0.001;
-  const metric_places<Metric> places(truth.cells(), metric);
+  const metric_locations<Metric> locations(truth.cells(), metric);
   return sum_over_blocks(
       truth.cells().size(), 4096, squared_differences(squared_differences::Zero()),
       [&](squared_differences& sum, block range) {
         for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
-          const location at = places(cell);
+          const location at = locations(cell);
           const rgb e = estimate.at(cell), t = truth.at(cell);
           for (Eigen::Index channel = 0; channel < 3; ++channel) {
             const double difference = metric.forward(e[channel], at) - metric.forward(t[channel], at);

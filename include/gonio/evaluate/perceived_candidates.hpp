@@ -36,7 +36,7 @@ struct perceived_options {
 
 namespace detail {
 
-/// Converts mapped values of channels of any kind, n x c, to those of the three channels of `channels::three`: n x 3.
+/// Converts mapped values of channels of any kind, n x c, to the three channels of `channels::three`: n x 3.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd mapped_in_three_channels(const Metric& metric, std::span<const location> locations,
                                                        const Eigen::MatrixXd& mapped, const channels& kinds) {
@@ -103,8 +103,8 @@ class perceived_candidates {
   /// Returns the value for measurements at n candidates. O(n points materials).
   [[nodiscard]] double operator()(std::span<const Eigen::Index> cells) const;
 
-  /// Returns one value for each candidate: that for measurements at `cells` and at this candidate, or infinity if the
-  /// apparatus cannot reach the candidate. O(candidates n points materials) for n cells.
+  /// Returns one value for each candidate: the value for measurements at `cells` and at this candidate, or infinity if
+  /// the apparatus cannot reach the candidate. O(candidates n points materials) for n cells.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells) const;
   /// Returns the values of `errors_with_each(cells)`, with the same bytes, for a range of the candidates. The range
   /// must begin at a multiple of `sweep_block`.

@@ -21,7 +21,7 @@
 namespace gonio {
 
 struct measurement_defects {
-  /// Fraction of the samples that are outliers: their value is replaced by that of a random cell of the table.
+  /// Fraction of the samples that are outliers, with the value of a random cell of the table.
   double outlier_ratio = 0.0;
   /// Standard deviation of Gaussian noise relative to the value, independent in each channel.
   double noise = 0.0;

@@ -21,7 +21,8 @@ class completed_table {
   /// Returns the reflectance in sr^-1, at least zero; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept { return table_(wi, wo); }
 
-  /// Returns the table itself, or interpolates it at the cells of another grid. Same bytes for any number of threads.
+  /// Returns the table itself, or interpolates it at the cells of another grid. Any number of threads gives the same
+  /// bytes.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     return resample(table_, cells, threads);
   }

@@ -63,7 +63,7 @@ struct pyramid_level {
 /// Converts sums of weighted values and of weights to mean values and a weight of at most 1.
 [[nodiscard]] Eigen::Array4f mean_of(const Eigen::Array4d& sums) noexcept;
 
-/// Returns value times weight, and the weight, of a cell, to be added up.
+/// Returns a cell's value times its weight, and the weight, to be added up.
 [[nodiscard]] Eigen::Array4d weighted(const Eigen::Array4f& cell) noexcept;
 
 /// Pull: combines the finer cells into cells of twice their size.
@@ -79,8 +79,8 @@ void push(const pyramid_level& coarse, pyramid_level& fine, thread_count threads
 /// - Splat: a cell has the weighted mean of its measurements and the sum of their weights, at most 1.
 /// - Pull: cells of twice the size along each axis have the weighted mean of their parts and the sum of their weights,
 ///   at most 1. Pulling ends with a single cell.
-/// - Push: from the coarsest level down, a cell of weight w keeps w of its own value and takes 1 - w from the coarser
-///   level, interpolated linearly between the centres of its cells.
+/// - Push: from the coarsest level down, a cell of weight w gets w times its own value plus 1 - w times the coarser
+///   level's value, interpolated linearly between the centres of the coarser cells.
 ///
 /// Extents need not be powers of two. phi_d wraps (reciprocity); theta_h and theta_d do not. A cell measured with a
 /// weight of at least 1 keeps its mean exactly, unless it is negative. Negative measurements are averaged like others,

@@ -27,11 +27,11 @@ class scattered_brdf {
   /// Returns the reflectance in sr^-1, at least zero; zero below the horizon. It is the mean of the k nearest samples,
   /// in the domain of the options. With their distances d_i, their own weights w_i, and the distance R of the next
   /// sample, sample i has the weight w_i ((R - d_i) / (R d_i))^p. The result is continuous, and equals a sample's value
-  /// in its own direction. Exactly reciprocal; isotropic except for rounding, which chooses the neighbours if more than
-  /// k are equally near. O(k log n).
+  /// in the sample's own directions. Exactly reciprocal; isotropic except for rounding, which chooses the neighbours if
+  /// more than k are equally near. O(k log n).
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept;
 
-  /// Tabulates the fit at the cells of a grid. Same bytes for any number of threads.
+  /// Tabulates the fit at the cells of a grid. Any number of threads gives the same bytes.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     return gonio::tabulate(*this, cells, threads);
   }
@@ -42,7 +42,7 @@ class scattered_brdf {
 
   explicit scattered_brdf(const scattered_options& options) : options_(options) {}
 
-  [[nodiscard]] rgb mean_of_neighbours(const embedded_samples& of, const std::array<double, 4>& place) const noexcept;
+  [[nodiscard]] rgb mean_of_neighbours(const embedded_samples& of, const std::array<double, 4>& at) const noexcept;
 
   scattered_options options_;
   /// A single set for all channels, or one for each channel if weights differ between channels.

@@ -19,8 +19,8 @@ namespace gonio {
 /// - 2 phi_d: by reciprocity phi_d and phi_d + pi are the same pair;
 /// - r: at theta_d = 0 there is no phi_d; at theta_h = 0 phi_d only rotates both directions about the normal, which has
 ///   no effect on an isotropic material. r cos phi_d is half the difference of the cosines of light and viewer.
-/// Two pairs have distance zero exactly if any reciprocal isotropic material has the same value for both, so these
-/// symmetries hold. Mirror symmetry (phi_d equivalent to -phi_d) is not assumed.
+/// Two pairs have distance zero exactly if every reciprocal isotropic material has the same value for both. Mirror
+/// symmetry (phi_d equivalent to -phi_d) is not assumed.
 struct pair_embedding {
   double theta_d_scale = 1.0;  ///< a
   double phi_d_scale = 0.25;   ///< b

@@ -65,8 +65,8 @@ template <error_metric Metric, class Where>
   return std::max(double{metric.inverse(mapped, where)}, 0.0);
 }
 
-/// A metric that also has the derivative of `forward` by the reflectance, `slope(rho)`, which is the same at all
-/// locations, and finite and positive for every finite rho. Non-linear fits need it.
+/// A metric with the derivative of `forward` by the reflectance, `slope(rho)`. The slope is the same at all locations,
+/// and finite and positive for every finite rho. Non-linear fits need it.
 template <class Metric>
 concept smooth_metric = error_metric<Metric> && requires(const Metric& metric, double value) {
   { metric.slope(value) } -> std::convertible_to<double>;

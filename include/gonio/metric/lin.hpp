@@ -1,7 +1,7 @@
 #pragma once
 /// The linear metric: unchanged reflectance. Noell, Koehler and Stricker 2014, section 2.2 and Eq. 16.
 
-#include <gonio/metric/place_free.hpp>
+#include <gonio/metric/location_free.hpp>
 
 #include <span>
 
@@ -9,7 +9,7 @@ namespace gonio {
 
 /// forward(rho) = rho, also for negative reflectance. Errors of the brightest cells dominate: a highlight a thousand
 /// times brighter than the rest decides the fit.
-struct lin : place_free_metric<lin> {
+struct lin : location_free_metric<lin> {
   [[nodiscard]] static double map(double rho) noexcept { return rho; }
   [[nodiscard]] static double unmap(double y) noexcept { return y; }
   /// Returns the derivative of `map`.

@@ -2,7 +2,7 @@
 /// The logarithmic metric ln(1 + rho). Noell, Koehler and Stricker 2014, section 2.4 and Eq. 14.
 
 #include <gonio/core/vector_kernels.hpp>
-#include <gonio/metric/place_free.hpp>
+#include <gonio/metric/location_free.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace gonio {
 
 /// forward(rho) = ln(1 + rho), continued to negative reflectance as an odd function, -ln(1 - rho). It is smooth and
 /// linear at zero, and finite for every measurement.
-struct log : place_free_metric<log> {
+struct log : location_free_metric<log> {
   [[nodiscard]] static double map(double rho) noexcept { return std::copysign(std::log1p(std::abs(rho)), rho); }
   [[nodiscard]] static double unmap(double y) noexcept { return std::copysign(std::expm1(std::abs(y)), y); }
   /// Returns the derivative of `map`.

@@ -126,7 +126,7 @@ class log_relative {
 
  private:
   static constexpr Eigen::Index shifts_at_once = 64;
-  /// Computes epsilon / c, c being the cosine weight, for at most `shifts_at_once` cells of a row from `begin` on.
+  /// Computes epsilon / c, with the cosine weight c, for at most `shifts_at_once` cells of a row from `begin` on.
   void compute_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const;
 
   [[nodiscard]] static double product_of(const cosine_pair& cosine) noexcept { return cosine.i * cosine.o; }

@@ -4,7 +4,7 @@
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/vector_kernels.hpp>
-#include <gonio/metric/place_free.hpp>
+#include <gonio/metric/location_free.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace gonio {
 
 /// forward(rho) = rho^(1/p), continued to negative reflectance as an odd function, -(-rho)^(1/p): negative measurements
 /// stay negative. The slope at zero is infinite (p > 1): noise around zero has a large effect.
-class root : public place_free_metric<root> {
+class root : public location_free_metric<root> {
  public:
   /// Throws gonio::error unless p is finite and at least 1.
   explicit root(double p = 2.0);

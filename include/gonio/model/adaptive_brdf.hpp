@@ -33,11 +33,11 @@ struct unit_square_tables {
 };
 
 /// The tables of a material. A direction maps to [0, 1]^2: its azimuth, phi / 2 pi + 1/2, across the rows, and
-/// sqrt(2 theta / pi) along them. Azimuths are relative to that of wi if the material is isotropic.
+/// sqrt(2 theta / pi) along them. If the material is isotropic, azimuths are relative to the azimuth of wi.
 ///
-/// The azimuths of an anisotropic material cover a full turn, from -pi to pi or nearly so. Those of a material that
-/// does not change if it is turned by pi may cover half a turn, from -pi to 0; those of one that also has a plane of
-/// symmetry, a quarter turn, from -pi to -pi/2.
+/// The azimuths of an anisotropic material cover a full turn, from -pi to pi or nearly so. If a turn by pi does not
+/// change the material, they may cover half a turn, from -pi to 0. If the material also has a plane of symmetry, they
+/// may cover a quarter turn, from -pi to -pi/2.
 struct adaptive_brdf_parts {
   std::vector<double> theta_i;         ///< n polar angles of wi in radians, ascending from 0 to pi/2
   unit_square_tables normals;          ///< D: one table
@@ -48,7 +48,7 @@ struct adaptive_brdf_parts {
                                        ///< of the first azimuth, for all theta_i, come first
 
   [[nodiscard]] bool is_anisotropic() const noexcept { return !phi_i.empty(); }
-  /// Returns the number of directions of wi that have tables: n p.
+  /// Returns the number of directions wi that have tables: n p.
   [[nodiscard]] Eigen::Index lights() const noexcept {
     return std::ssize(theta_i) * std::max<Eigen::Index>(std::ssize(phi_i), 1);
   }

@@ -19,7 +19,7 @@ enum class viewer_angles {
   about_specular  ///< angle to the specular direction, and azimuth about it (io/measurements/zemax_bsdf.hpp)
 };
 
-/// The values between and outside the outermost polar angles.
+/// The values outside the outermost polar angles.
 enum class beyond_grid {
   constant,     ///< as at the outermost
   extrapolated  ///< on a straight line through the last two

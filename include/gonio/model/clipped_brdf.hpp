@@ -40,8 +40,8 @@ struct clipped_values {
   rgb added{rgb::Zero()};
 };
 
-/// Directions in which negative values are sought: as cells have them, or, for anisotropic BRDFs, each cell turned
-/// about the normal by the golden angle more than the one before it, which reaches all azimuths.
+/// Directions in which negative values are sought: the cells' directions, for anisotropic BRDFs turned about the
+/// normal, each by the golden angle more than the one before, which reaches all azimuths.
 enum class cell_azimuths { zero, all };
 
 /// Counts the cells at which a BRDF has negative values, and integrates the light that clipping adds. O(cells), plus at

@@ -64,7 +64,7 @@ struct shape_parameter {
 inline constexpr shape_parameter axes_rotation{"rotation", "rad", -std::numbers::pi / 2, std::numbers::pi / 2, 0.0,
                                                false,      true};
 
-/// Returns a squared length: that of (x, y) in axes that are rotated from x towards y, with x scaled by a and y by b.
+/// Returns the squared length of (x, y) in axes that are rotated from x towards y, with x scaled by a and y by b.
 template <class Real>
 [[nodiscard]] Real scaled_square(double x, double y, const Real& rotation, const Real& a, const Real& b) {
   using std::cos, std::sin;

@@ -83,10 +83,10 @@ class model_loss {
 
   [[nodiscard]] analytic_brdf model(const Eigen::VectorXd& x) const;
 
-  /// Returns the weighted products with one another of L + P + 3 columns over the N observations: the values of L
-  /// shapes, their P slopes with respect to the coded parameters, and three measured channels. These products suffice
-  /// for the squared loss of linear residuals, its gradient and its Hessian, for any colours. Returns a single matrix
-  /// if each observation weighs its channels equally, otherwise one matrix per channel. O(N (L + P)^2).
+  /// Returns the weighted scalar products of L + P + 3 columns over the N observations: the values of L shapes, their P
+  /// slopes with respect to the coded parameters, and three measured channels. These products suffice for the squared
+  /// loss of linear residuals, its gradient and its Hessian, for any colours. Returns a single matrix if each
+  /// observation weighs its channels equally, otherwise one matrix per channel. O(N (L + P)^2).
   [[nodiscard]] std::vector<Eigen::MatrixXd> products(const Eigen::VectorXd& u) const;
 
   /// Returns the colours that minimise the squares of linear residuals, L x 3 for L lobes. Lobes that are dark

@@ -27,8 +27,8 @@ struct pair_grid {
 
 namespace detail {
 
-/// Returns the pair with the largest `amount(wi, wo)`. The azimuth of the viewers is not that of an axis, so that
-/// anisotropic models are tested off their axes.
+/// Returns the pair with the largest `amount(wi, wo)`. The viewers are not at the azimuth of an axis, so anisotropic
+/// models are tested off their axes.
 template <class Amount>
 [[nodiscard]] worst_pair worst_of_pairs(const pair_grid& grid, Amount&& amount) {
   constexpr double pi = std::numbers::pi, azimuth = 0.4;

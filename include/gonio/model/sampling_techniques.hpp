@@ -228,7 +228,7 @@ inline constexpr double defensive_share = 0.1;
   return {{ggx_visible_normals{shape.alpha_x, shape.alpha_y, shape.rotation}, 1.0}};
 }
 
-/// Returns the techniques of a shape, for this shape times a Fresnel factor.
+/// Returns, for a shape times a Fresnel factor, the techniques of the shape.
 template <class Shape>
 requires requires(const Shape& shape) {
   techniques_of(shape.lobe);

@@ -15,8 +15,8 @@ namespace gonio::model {
 
 /// Gives each linear Rec. 709 colour a spectrum: linear between its wavelengths, constant outside. Under D65, the
 /// spectrum has the given colour for the observer of core/spectrum.hpp. A colour without negative channels has a
-/// spectrum without negative values. The spectrum is a linear function of the colour among colours with the same order
-/// of their channels by size.
+/// spectrum without negative values. Among colours whose channels have the same order by size, the spectrum is a linear
+/// function of the colour.
 class smooth_spectra {
  public:
   /// Uses wavelengths from 380 to 760 nanometres in steps of 20.

@@ -64,8 +64,8 @@ template <brdf Brdf>
   return adaptive_brdf(detail::tabulated_adaptively(evaluated, resolution, threads));
 }
 
-/// Returns the tables of an anisotropic BRDF, over the azimuths of the light, too:
-/// `tabulate_adaptively(f, anisotropic_resolution{})`. A template, so that `{}` means the other one.
+/// Returns the tables of an anisotropic BRDF, also over the azimuths of the light:
+/// `tabulate_adaptively(f, anisotropic_resolution{})`. A template, so that `{}` means the isotropic overload.
 template <brdf Brdf, std::same_as<anisotropic_resolution> Resolution>
 [[nodiscard]] adaptive_brdf tabulate_adaptively(const Brdf& f, const Resolution& resolution,
                                                 thread_count threads = {}) {
@@ -98,9 +98,9 @@ template <brdf Brdf>
 }
 
 /// Returns a BRDF's tables at the default resolution if their albedo differs by at most `tolerance` (`albedo_error`).
-/// Otherwise uses nearly twice as many theta_i, and if needed also 1.5 times as many rows and columns. Too few make the
-/// tables too bright where a narrow highlight grows towards grazing angles. A file of the tables has 7, 13 or 24 MB.
-/// Throws like `tabulate_adaptively`.
+/// Otherwise uses nearly twice as many theta_i, and if needed also 1.5 times as many rows and columns. With too few,
+/// the tables are too bright where a narrow highlight grows towards grazing angles. A file of the tables has 7, 13 or
+/// 24 MB. Throws like `tabulate_adaptively`.
 template <brdf Brdf>
 [[nodiscard]] adaptive_brdf tabulate_keeping_albedo(const Brdf& f, double tolerance = usual_albedo_tolerance,
                                                     thread_count threads = {}) {
@@ -111,8 +111,8 @@ template <brdf Brdf>
   return tabulate_adaptively(f, {.theta_i = 60, .values = 144}, threads);
 }
 
-/// Returns the reflectance table of another BRDF over a material's own normals, for `adaptive_brdf_parts`: for example
-/// of three wavelengths, for a material that is tabulated in colours. O(theta_i values^2) evaluations of f.
+/// Returns the reflectance tables of another BRDF over a material's own normals, for `adaptive_brdf_parts`: for example
+/// at three wavelengths, for a material that is tabulated in colours. O(theta_i values^2) evaluations of f.
 template <brdf Brdf>
 [[nodiscard]] unit_square_tables tabulate_over(const adaptive_brdf& material, const Brdf& f,
                                                thread_count threads = {}) {

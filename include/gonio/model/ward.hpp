@@ -98,7 +98,7 @@ using ward_duer = lobe<detail::isotropic_ward<detail::ward_normalisation::produc
 using ward_bounded = lobe<detail::isotropic_ward<detail::ward_normalisation::bounded>::shape>;
 
 /// Brushed metal, rougher along one axis than along the other. A table over half and difference angles cannot hold it.
-/// Ward 1992 has the axes of the surface; here they are rotated.
+/// Ward 1992 uses the axes of the surface; here they are rotated.
 template <class Real>
 using anisotropic_ward_shape = detail::anisotropic_ward<detail::ward_normalisation::geometric_mean>::shape<Real>;
 template <class Real>

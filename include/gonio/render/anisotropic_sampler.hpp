@@ -1,5 +1,5 @@
 #pragma once
-/// Importance sampling of anisotropic BRDFs: directions are drawn as for the mean over all azimuths, which is
+/// Importance sampling of anisotropic BRDFs: directions are drawn as for the BRDF's mean over azimuth, which is
 /// isotropic, and weighted by the BRDF itself.
 
 #include <gonio/core/brdf.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 /// Finds the cell of a MERL-like grid that contains a pair of directions, without trigonometric functions, for the
 /// inner loop of a renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
-/// (doi:10.1007/978-3-7091-6453-2_2); the grid is that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH
-/// 2003 (doi:10.1145/882262.882343).
+/// (doi:10.1007/978-3-7091-6453-2_2); the grid is from Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003
+/// (doi:10.1145/882262.882343).
 ///
 /// An angle from 0 to 90 degrees is identified by s / (s + c) with its sine s and cosine c. This ratio rises almost
 /// evenly from 0 to 1 and does not change if s and c have a common factor. The ratios at the cells' borders are
@@ -66,7 +66,7 @@ class border_counter {
 }  // namespace detail
 
 /// Finds the same cells as `grid::nearest`, which uses arc functions, in a fraction of the time. Use it for one pair at
-/// a time. For many pairs at once, or positions between cells, use `to_grid_coordinates`. For single pairs,
+/// a time. For many pairs at once, or locations between cells, use `to_grid_coordinates`. For single pairs,
 /// `to_grid_coordinates` is slower, because its polynomials have more instructions than a processor can look ahead
 /// (bench/render/lookup_table.cpp). In `float`, rounding may give the neighbouring cell within 1e-6 radians of a
 /// border, which happens to some pairs in a million. In `double`, ten million pairs gave no other cell. The two
@@ -104,7 +104,7 @@ class cell_finder {
   static constexpr Eigen::Index none = std::numeric_limits<Eigen::Index>::max();
 
   /// The cell of a pair, and whether it exists.
-  struct place {
+  struct found_cell {
     Eigen::Index theta_h = 0, theta_d = 0, phi_d = 0;
     bool exists = false;
   };
@@ -117,18 +117,18 @@ class cell_finder {
   }
 
   [[nodiscard]] Eigen::Index at(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
-    const place cell = find(ix, iy, iz, ox, oy, oz);
+    const found_cell cell = find(ix, iy, iz, ox, oy, oz);
     return cell.exists ? (cell.theta_h * rows_ + cell.theta_d) * columns_ + cell.phi_d : none;
   }
 
-  [[nodiscard]] place find(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
+  [[nodiscard]] found_cell find(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
     const Real sx = ix + ox, sy = iy + oy, sz = iz + oz, dx = ix - ox, dy = iy - oy, dz = iz - oz;
     const Real across = sx * sx + sy * sy, sum = across + sz * sz, difference = dx * dx + dy * dy + dz * dz;
     // The condition is also false for NaN.
     if (!(iz > 0 && oz > 0 && sum + difference <= largest)) return {};
     const Real length = std::sqrt(sum), radius = std::sqrt(across), apart = std::sqrt(difference);
-    // The difference vector, rotated by the rotation that takes the half vector to the normal, times the radius. If the
-    // half vector is the normal, it is not rotated.
+    // The difference vector after the rotation that takes the half vector to the normal, times the radius. If the half
+    // vector is the normal, the difference vector is not rotated.
     const bool on_axis = !(across > 0);
     const Real along = sx * dx + sy * dy;
     const Real x = on_axis ? dx : (sz * along - across * dz) / length, y = on_axis ? dy : sx * dy - sy * dx;

@@ -134,12 +134,12 @@ template <interpolation Interpolation, stored_number Stored, std::floating_point
                                                            const Eigen::Matrix<Real, 3, 1>& wo) noexcept {
   const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
   if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
-  const auto place = to_grid_coordinates(ix, iy, iz, ox, oy, oz);
+  const auto coordinates = to_grid_coordinates(ix, iy, iz, ox, oy, oz);
   Eigen::Array<Real, 4, 1> mapped = Eigen::Array<Real, 4, 1>::Zero();
   if constexpr (Interpolation == interpolation::nearest) {
-    mapped = mapped_components<Real>(components, weights, components.index().nearest(place));
+    mapped = mapped_components<Real>(components, weights, components.index().nearest(coordinates));
   } else {
-    const trilinear_corners<Real> corners = components.index().around(place);
+    const trilinear_corners<Real> corners = components.index().around(coordinates);
     for (Eigen::Index k = 0; k < 8; ++k)
       mapped += corners.weight[k] * mapped_components<Real>(components, weights, corners.number[k]);
   }

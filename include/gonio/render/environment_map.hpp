@@ -26,8 +26,8 @@ namespace gonio::render {
 
 /// Radiance from all directions, constant within each pixel of an image that is twice as wide as high.
 ///
-/// The image is the view of an upright observer at the sphere who turns around. World axes are those of
-/// render/lighting.hpp. The convention is that of Debevec's High-Resolution Light Probe Image Gallery. The centre is
+/// The image is the view of an upright observer at the sphere who turns around. World axes are as in
+/// render/lighting.hpp. The convention is as in Debevec's High-Resolution Light Probe Image Gallery. The centre is
 /// behind the sphere, in the camera's viewing direction (-z). The left and right edges are behind the camera (+z). A
 /// quarter from the right is the camera's right (+x). The top row is up (+y). The point u from left to right and v from
 /// top to bottom is the direction (sin t sin l, cos t, -sin t cos l) with t = pi v, l = 2 pi u - pi.
@@ -122,11 +122,11 @@ namespace detail {
 template <class Visit>
 void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&& visit) {
   const std::size_t side = std::bit_ceil(std::max(rows, columns));
-  for (std::size_t place = 0; place < side * side; ++place) {
-    // At each level, from the finest, two bits of `place` choose a quadrant, and the part of the curve inside it is
+  for (std::size_t position = 0; position < side * side; ++position) {
+    // At each level, from the finest, two bits of `position` choose a quadrant, and the part of the curve inside it is
     // rotated to fit. The curve fills the upper half of the square first. In an image twice as wide as high, whose
     // width is a power of two, successive pixels are therefore adjacent.
-    std::size_t row = 0, column = 0, rest = place;
+    std::size_t row = 0, column = 0, rest = position;
     for (std::size_t half = 1; half < side; half *= 2, rest /= 4) {
       const bool lower = (rest & 2) != 0, right = lower != ((rest & 1) != 0);
       if (!right) {

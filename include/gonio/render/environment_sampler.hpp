@@ -42,10 +42,10 @@ class environment_sampler {
     const auto guess = guesses_.begin() + static_cast<std::ptrdiff_t>(u1 * static_cast<double>(guesses_.size() - 1));
     const auto first = reached_.begin() + 1;
     const auto above = std::upper_bound(first + guess[0], first + guess[1], share);
-    const std::size_t place = above - first, pixel_number = order_[place];
+    const std::size_t position = above - first, pixel_number = order_[position];
     const std::size_t row = pixel_number / map_.columns(), column = pixel_number % map_.columns();
     // The position of u1 within its pixel's share serves as a third random number.
-    const double within = std::clamp((share - reached_[place]) / (*above - reached_[place]), 0.0, 1.0);
+    const double within = std::clamp((share - reached_[position]) / (*above - reached_[position]), 0.0, 1.0);
     const double height = edges_[row] + within * (edges_[row + 1] - edges_[row]);
     const double across = std::sqrt(std::max(0.0, 1.0 - height * height));
     return light_of(environment_map::towards({height, across}, static_cast<double>(column) + u2, map_.rows()),

@@ -42,7 +42,7 @@ namespace gonio::render {
 }
 
 /// Returns the linear colour of a CIELAB difference: light for zero, dark for `largest` and more. The default of
-/// `largest` is that of Noell, Koehler and Stricker 2014, Fig. 3. Their colours go from blue over green to red, an
+/// `largest` is from Noell, Koehler and Stricker 2014, Fig. 3. Their colours go from blue through green to red, an
 /// order that is not visible without a scale.
 [[nodiscard]] inline rgb difference_colour(double delta_e, double largest = 20.0) noexcept {
   GONIO_ASSERT(largest > 0.0);
@@ -51,13 +51,13 @@ namespace gonio::render {
 
 /// Returns the position of a value on a logarithmic scale: 0 for values up to `lowest`, 1 for `highest`, above 1 for
 /// larger values. `lowest` must be positive.
-[[nodiscard]] inline double place_by_factors(double value, double lowest, double highest) noexcept {
+[[nodiscard]] inline double logarithmic_position(double value, double lowest, double highest) noexcept {
   return std::log(std::max(value, lowest) / lowest) / std::log(highest / lowest);
 }
 
 /// Returns the linear colour of a relative uncertainty: light up to 2 %, dark from 100 % on.
 [[nodiscard]] inline rgb uncertainty_colour(double uncertainty) noexcept {
-  return sequential_colour(place_by_factors(uncertainty, 0.02, 1.0));
+  return sequential_colour(logarithmic_position(uncertainty, 0.02, 1.0));
 }
 
 /// The number of categories that have colours.

@@ -1,8 +1,8 @@
 #pragma once
 /// Maps a pair of directions to a MERL-like grid without trigonometric functions, for the inner loop of a renderer. S.
 /// Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
-/// (doi:10.1007/978-3-7091-6453-2_2); the grid is that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH
-/// 2003 (doi:10.1145/882262.882343).
+/// (doi:10.1007/978-3-7091-6453-2_2); the grid is from Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003
+/// (doi:10.1145/882262.882343).
 ///
 /// The three angles follow from ratios of sums and differences of the two directions. One polynomial gives their arc
 /// tangents; a compiler can evaluate it for several pairs at once.
@@ -43,16 +43,17 @@ template <std::floating_point Real>
   return cells.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
 }
 
-/// Returns the nodes nearest to a position. The phi_d node may equal its extent, which stands for node 0.
+/// Returns the nodes nearest to a location. The phi_d node may equal its extent, which stands for node 0.
 template <std::floating_point Real>
-[[nodiscard]] inline cell_index nearest_nodes(const gonio::grid& cells, const grid_coordinates<Real>& place) noexcept {
+[[nodiscard]] inline cell_index nearest_nodes(const gonio::grid& cells,
+                                              const grid_coordinates<Real>& coordinates) noexcept {
   const auto [heights, rows, columns] = cells.extents();
   const Real shift = Real(0.5) - first_node<Real>(cells);
   const auto node = [shift](Real share, int extent) {
     return static_cast<int>(share * static_cast<Real>(extent) + shift);
   };
-  return {std::min(node(place.theta_h, heights), heights - 1), std::min(node(place.theta_d, rows), rows - 1),
-          node(place.phi_d, columns)};
+  return {std::min(node(coordinates.theta_h, heights), heights - 1),
+          std::min(node(coordinates.theta_d, rows), rows - 1), node(coordinates.phi_d, columns)};
 }
 
 /// The terms of a pair of directions, before square roots are taken.
@@ -74,8 +75,8 @@ struct pair_terms {
     squared_h = std::min(across, up) / std::max(across, up);
     steep_d = difference > squared_sum ? Real(1) : Real(0);
     squared_d = std::min(difference, squared_sum) / std::max(difference, squared_sum);
-    // The difference vector, rotated by the rotation that takes the half vector to the normal, times the lengths of
-    // both.
+    // x and y of the difference vector after the rotation that takes the half vector to the normal, times sqrt(across);
+    // x also times |wi + wo|.
     along = sz * (sx * dx + sy * dy) - across * dz;
     beside = sx * dy - sy * dx;
   }

@@ -66,11 +66,11 @@ class half_vector_bins {
     const Real share = std::sqrt(quarter_turns(std::sqrt(squared), squared, across > up ? Real(1) : Real(0)));
     const azimuth_terms<Real> phi(h.x(), std::abs(h.y()));
     const Real turn = half_turns(quarter_turns(phi.tangent, phi.tangent * phi.tangent, phi.steep), phi.left);
-    return place(share, rings) * sectors + place(turn, sectors);
+    return part_of(share, rings) * sectors + part_of(turn, sectors);
   }
 
  private:
-  [[nodiscard]] static Eigen::Index place(Real share, Eigen::Index parts) noexcept {
+  [[nodiscard]] static Eigen::Index part_of(Real share, Eigen::Index parts) noexcept {
     return std::min<std::size_t>(static_cast<std::size_t>(share * static_cast<Real>(parts)), parts - 1);
   }
 
@@ -114,7 +114,7 @@ class half_vector_sampler {
     return drawn;
   }
 
-  /// Draws the same direction, but leaves its weight 0: for another BRDF.
+  /// Draws the direction of `sample`, but leaves its weight 0, for use with another BRDF.
   [[nodiscard]] basic_sampled_direction<Real> draw(const vector& wo, Real u1, Real u2) const noexcept {
     if (!(wo.z() > 0)) return {};
     const Eigen::Index viewer = viewer_of(wo);
@@ -144,13 +144,13 @@ class half_vector_sampler {
   /// Returns the index of a viewer. It is proportional to sqrt(1 - cos theta_o), which gives nearly equal steps of the
   /// angle.
   [[nodiscard]] static Eigen::Index viewer_of(const vector& wo) noexcept {
-    const Real place = std::sqrt(std::max(1 - wo.z(), Real(0))) * static_cast<Real>(viewers);
-    return std::min<std::size_t>(static_cast<std::size_t>(place), viewers - 1);
+    const Real position = std::sqrt(std::max(1 - wo.z(), Real(0))) * static_cast<Real>(viewers);
+    return std::min<std::size_t>(static_cast<std::size_t>(position), viewers - 1);
   }
   /// Returns a viewer in the xz plane. `share` is its position in the interval of its index, from 0 to 1.
   [[nodiscard]] static vector a_viewer(Eigen::Index viewer, double share) {
-    const double place = (static_cast<double>(viewer) + share) / static_cast<double>(viewers);
-    const double z = 1.0 - place * place;
+    const double position = (static_cast<double>(viewer) + share) / static_cast<double>(viewers);
+    const double z = 1.0 - position * position;
     return {static_cast<Real>(std::sqrt(1.0 - z * z)), 0, static_cast<Real>(z)};
   }
 

@@ -16,7 +16,7 @@
 
 namespace gonio::render {
 
-/// The eight cells around a position, with weights that sum to 1.
+/// The eight cells around a location, with weights that sum to 1.
 template <std::floating_point Real>
 struct trilinear_corners {
   std::array<Eigen::Index, 8> number{};
@@ -35,17 +35,17 @@ struct node_interval {
 /// Returns the nodes around a position, in units of nodes. Positions outside of the axis are clamped to the first or
 /// last node.
 template <std::floating_point Real>
-[[nodiscard]] inline node_interval<Real> clamped_nodes(Real place, int extent) noexcept {
-  const Real inside = std::clamp(place, Real(0), static_cast<Real>(extent - 1));
+[[nodiscard]] inline node_interval<Real> clamped_nodes(Real position, int extent) noexcept {
+  const Real inside = std::clamp(position, Real(0), static_cast<Real>(extent - 1));
   const auto lower = static_cast<int>(inside);
   return {lower, std::min(lower + 1, extent - 1), inside - static_cast<Real>(lower)};
 }
 
 /// Returns the nodes of a periodic axis around a position, which is from -1/2 to the extent of the axis.
 template <std::floating_point Real>
-[[nodiscard]] inline node_interval<Real> periodic_nodes(Real place, int extent) noexcept {
-  const auto upper = static_cast<int>(place + 1);
-  const Real share = place + 1 - static_cast<Real>(upper);
+[[nodiscard]] inline node_interval<Real> periodic_nodes(Real position, int extent) noexcept {
+  const auto upper = static_cast<int>(position + 1);
+  const Real share = position + 1 - static_cast<Real>(upper);
   if (upper == 0) return {extent - 1, 0, share};
   const Eigen::Index lower = upper > extent ? 0 : upper - 1;
   return {lower, lower + 1 < extent ? lower + 1 : 0, share};
@@ -81,32 +81,32 @@ class horizon_index {
     return (layer * rows_ + theta_d) * columns_ + phi_d;
   }
 
-  /// Returns the number of the cell whose node is nearest to a position.
+  /// Returns the number of the cell whose node is nearest to a location.
   template <std::floating_point Real>
-  [[nodiscard]] Eigen::Index nearest(const grid_coordinates<Real>& place) const noexcept {
-    const auto [theta_h, theta_d, phi_d] = detail::nearest_nodes(grid_, place);
+  [[nodiscard]] Eigen::Index nearest(const grid_coordinates<Real>& coordinates) const noexcept {
+    const auto [theta_h, theta_d, phi_d] = detail::nearest_nodes(grid_, coordinates);
     return (*this)(theta_h, theta_d, phi_d < columns_ ? phi_d : 0);
   }
 
-  /// Returns the cells around a position. theta_h and theta_d are clamped to their first and last nodes; phi_d is
+  /// Returns the cells around a location. theta_h and theta_d are clamped to their first and last nodes; phi_d is
   /// periodic.
   template <std::floating_point Real>
-  [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place) const noexcept {
-    return around(place, *this);
+  [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& coordinates) const noexcept {
+    return around(coordinates, *this);
   }
 
-  /// Returns the cells around a position as the overload without `number_of` does, but with the numbers that
+  /// Returns the cells around a location as the overload without `number_of` does, but with the numbers that
   /// `number_of(theta_h, theta_d, phi_d)` returns.
   template <std::floating_point Real, class NumberOf>
-  [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place,
+  [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& coordinates,
                                                const NumberOf& number_of) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();
     const auto nodes = [this](Real coordinate, int extent) {
       return coordinate * static_cast<Real>(extent) - detail::first_node<Real>(grid_);
     };
-    const auto h = detail::clamped_nodes(nodes(place.theta_h, heights), heights),
-               d = detail::clamped_nodes(nodes(place.theta_d, rows), rows),
-               p = detail::periodic_nodes(nodes(place.phi_d, columns), columns);
+    const auto h = detail::clamped_nodes(nodes(coordinates.theta_h, heights), heights),
+               d = detail::clamped_nodes(nodes(coordinates.theta_d, rows), rows),
+               p = detail::periodic_nodes(nodes(coordinates.phi_d, columns), columns);
     trilinear_corners<Real> corners;
     for (Eigen::Index k = 0; k < 8; ++k) {
       const bool is_upper_h = (k & 4) != 0, is_upper_d = (k & 2) != 0, is_upper_p = (k & 1) != 0;

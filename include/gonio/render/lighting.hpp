@@ -141,7 +141,7 @@ static_assert(sphere_lighting<directional_lighting>);
 [[nodiscard]] inline rgb environment_radiance(const direction& d) noexcept {
   struct window {
     direction centre;
-    double width;  // radians from the centre at which the radiance is 1/e of that at the centre
+    double width;  // radians from the centre at which the radiance falls to 1/e
     rgb radiance;
     double cosine_of_edge;
   };

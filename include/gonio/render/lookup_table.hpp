@@ -1,6 +1,6 @@
 #pragma once
 /// A tabulated BRDF for the inner loop of a renderer. Look-up is nearest or trilinear, for one pair of directions or
-/// many, in float or double. Values are stored as float, double or half. The grid is that of Matusik et al., "A
+/// many, in float or double. Values are stored as float, double or half. The grid is from Matusik et al., "A
 /// Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/assertion.hpp>
@@ -27,7 +27,7 @@
 
 namespace gonio::render {
 
-/// How values are looked up: at the nearest cell, or interpolated between the eight cells around a position.
+/// How values are looked up: at the nearest cell, or interpolated between the eight cells around a location.
 enum class interpolation { nearest, trilinear };
 
 /// The source of a `lookup_table`: values at the cells of a grid, such as a `brdf_table`.
@@ -107,7 +107,7 @@ class lookup_table {
       const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
       return value_at<Real>(cells_(cell.theta_h, cell.theta_d, cell.phi_d));
     } else {
-      return value_at<Real>(place(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
+      return value_at<Real>(locate(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
     }
   }
 
@@ -122,16 +122,16 @@ class lookup_table {
     constexpr Eigen::Index size = block_type::size;
     const auto scale = static_cast<computed>(scale_);
     block_type block;
-    std::array<place_of<Real>, size> places;
+    std::array<location_of<Real>, size> locations;
     std::array<computed, size> factors;
-    alignas(64) std::array<storage, size * read_of_place> stored;
-    alignas(64) std::array<computed, size * read_of_place> wide;
+    alignas(64) std::array<storage, size * read_per_location> stored;
+    alignas(64) std::array<computed, size * read_per_location> wide;
     for (Eigen::Index first = 0; first < out.size(); first += size) {
       const Eigen::Index count = std::min(size, out.size() - first);
       block.compute(wi, wo, first, count);
       // Do each step for all pairs: while the processor waits for one value, it requests the next.
-      for (Eigen::Index i = 0; i < size; ++i) places[i] = place(block[i]);
-      for (Eigen::Index i = 0; i < size; ++i) read(places[i], stored.data() + i * read_of_place);
+      for (Eigen::Index i = 0; i < size; ++i) locations[i] = locate(block[i]);
+      for (Eigen::Index i = 0; i < size; ++i) read(locations[i], stored.data() + i * read_per_location);
       const computed* values = widened(stored, wide);
       for (Eigen::Index i = 0; i < count; ++i) {
         const Eigen::Index n = first + i;
@@ -139,7 +139,7 @@ class lookup_table {
       }
       for (Eigen::Index i = 0; i < count; ++i) {
         const Eigen::Index n = first + i;
-        const Eigen::Array<Real, 3, 1> colour = blended<Real>(places[i], values + i * read_of_place, factors[i]);
+        const Eigen::Array<Real, 3, 1> colour = blended<Real>(locations[i], values + i * read_per_location, factors[i]);
         out.x[n] = colour.x();
         out.y[n] = colour.y();
         out.z[n] = colour.z();
@@ -200,10 +200,10 @@ class lookup_table {
 
   /// The location that is read for a pair of directions: one cell, or the first of eight cells with fractions.
   template <std::floating_point Real>
-  using place_of = std::conditional_t<Interpolation == interpolation::nearest, std::int32_t, cell_corner<Real>>;
+  using location_of = std::conditional_t<Interpolation == interpolation::nearest, std::int32_t, cell_corner<Real>>;
 
   template <std::floating_point Real>
-  [[nodiscard]] place_of<Real> place(const grid_coordinates<Real>& coordinates) const noexcept {
+  [[nodiscard]] location_of<Real> locate(const grid_coordinates<Real>& coordinates) const noexcept {
     if constexpr (Interpolation == interpolation::nearest)
       return cells_.nearest(coordinates);
     else
@@ -212,7 +212,7 @@ class lookup_table {
 
   /// The number of values that are read for a location, padded to whole vectors: the three channels of the nearest cell
   /// or, for trilinear look-up, four rows with the three channels of both neighbours along phi_d.
-  static constexpr Eigen::Index read_of_place = Interpolation == interpolation::nearest ? 4 : 4 * 8;
+  static constexpr Eigen::Index read_per_location = Interpolation == interpolation::nearest ? 4 : 4 * 8;
 
   void read(std::int32_t nearest, storage* out) const noexcept {
     std::memcpy(out, values_.data() + 3 * Eigen::Index{nearest}, 4 * sizeof(storage));
@@ -231,7 +231,7 @@ class lookup_table {
 
   /// Blends the values that were read for a location, and multiplies the result by `factor`.
   template <std::floating_point Real>
-  [[nodiscard]] static Eigen::Array<Real, 3, 1> blended(const place_of<Real>& where, const computed* values,
+  [[nodiscard]] static Eigen::Array<Real, 3, 1> blended(const location_of<Real>& where, const computed* values,
                                                         computed factor) noexcept {
     if constexpr (Interpolation == interpolation::nearest) {
       return {static_cast<Real>(values[0] * factor), static_cast<Real>(values[1] * factor),
@@ -247,9 +247,9 @@ class lookup_table {
   }
 
   template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 3, 1> value_at(const place_of<Real>& where) const noexcept {
-    std::array<storage, read_of_place> stored;
-    std::array<computed, read_of_place> wide;
+  [[nodiscard]] Eigen::Array<Real, 3, 1> value_at(const location_of<Real>& where) const noexcept {
+    std::array<storage, read_per_location> stored;
+    std::array<computed, read_per_location> wide;
     read(where, stored.data());
     return blended<Real>(where, widened(stored, wide), static_cast<computed>(scale_));
   }

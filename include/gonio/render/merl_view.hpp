@@ -1,5 +1,5 @@
 #pragma once
-/// A view of a MERL table in a renderer's memory, without a copy. The grid is that of Matusik et al., "A Data-Driven
+/// A view of a MERL table in a renderer's memory, without a copy. The grid is from Matusik et al., "A Data-Driven
 /// Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343). A `lookup_table` is smaller and faster, because it
 /// stores the three channels of a cell together.
 
@@ -25,7 +25,7 @@ namespace gonio::render {
 /// without a value, are black, and cells below the horizon repeat cells above it. The view holds an index of the grid,
 /// 100 KB. After construction it does not allocate, lock or throw, and any number of threads may read.
 /// ```cpp
-/// const gonio::render::merl_view paint(planes);  // what the file holds behind its header, 3 x 90 x 90 x 180
+/// const gonio::render::merl_view paint(planes);  // the file's data after its header, 3 x 90 x 90 x 180
 /// const auto f = paint(wi, wo);  // sr^-1, without the cosine, in float or double like the directions
 /// ```
 /// Values are not checked in advance. A value that is not finite is returned as it is.

@@ -1,7 +1,7 @@
 #pragma once
-/// Numbers the cells of a MERL-like grid so that the cells around a position are found without a table and neighbours
+/// Numbers the cells of a MERL-like grid so that the cells around a location are found without a table and neighbours
 /// along phi_d are adjacent in memory, for the inner loop of a renderer. Because phi_d is periodic, each row repeats
-/// its last cell before the first and its first cell after the last. The grid is that of Matusik et al., "A Data-Driven
+/// its last cell before the first and its first cell after the last. The grid is from Matusik et al., "A Data-Driven
 /// Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/error.hpp>
@@ -18,7 +18,7 @@
 
 namespace gonio::render {
 
-/// The first of the eight cells around a position, and the fraction of the way to the next cell along each axis, from 0
+/// The first of the eight cells around a location, and the fraction of the way to the next cell along each axis, from 0
 /// to 1.
 template <std::floating_point Real>
 struct cell_corner {
@@ -58,19 +58,19 @@ class padded_grid {
     return static_cast<std::int32_t>((theta_h * grid_.extents().theta_d + theta_d) * columns_ + phi_d + 1);
   }
 
-  /// Returns the number of the cell whose node is nearest to a position.
+  /// Returns the number of the cell whose node is nearest to a location.
   template <std::floating_point Real>
-  [[nodiscard]] std::int32_t nearest(const grid_coordinates<Real>& place) const noexcept {
-    const auto [theta_h, theta_d, phi_d] = detail::nearest_nodes(grid_, place);
+  [[nodiscard]] std::int32_t nearest(const grid_coordinates<Real>& coordinates) const noexcept {
+    const auto [theta_h, theta_d, phi_d] = detail::nearest_nodes(grid_, coordinates);
     return (theta_h * grid_.extents().theta_d + theta_d) * columns_ + phi_d + 1;
   }
 
-  /// Returns the cells around a position. theta_h and theta_d are clamped to their first and last nodes.
+  /// Returns the cells around a location. theta_h and theta_d are clamped to their first and last nodes.
   template <std::floating_point Real>
-  [[nodiscard]] cell_corner<Real> around(const grid_coordinates<Real>& place) const noexcept {
+  [[nodiscard]] cell_corner<Real> around(const grid_coordinates<Real>& coordinates) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();
-    const auto h = inside(place.theta_h, heights), d = inside(place.theta_d, rows);
-    const Real p = place.phi_d * static_cast<Real>(columns) - detail::first_node<Real>(grid_) +
+    const auto h = inside(coordinates.theta_h, heights), d = inside(coordinates.theta_d, rows);
+    const Real p = coordinates.phi_d * static_cast<Real>(columns) - detail::first_node<Real>(grid_) +
                    1;  // 1 for the repeated cell before the first
     const int lower_h = lower(h, heights), lower_d = lower(d, rows), lower_p = std::min(static_cast<int>(p), columns);
     return {(lower_h * rows + lower_d) * columns_ + lower_p, h - static_cast<Real>(lower_h),
@@ -85,8 +85,8 @@ class padded_grid {
   }
 
   template <std::floating_point Real>
-  [[nodiscard]] static int lower(Real place, int extent) noexcept {
-    return std::min(static_cast<int>(place), std::max(extent - 2, 0));
+  [[nodiscard]] static int lower(Real position, int extent) noexcept {
+    return std::min(static_cast<int>(position), std::max(extent - 2, 0));
   }
 
   gonio::grid grid_;

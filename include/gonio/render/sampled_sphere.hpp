@@ -116,16 +116,16 @@ class sphere_tiles {
   }
 
  private:
-  /// A position in the image: x to the right and y upwards, from -1 to 1.
-  struct location {
+  /// A point of the image: x to the right and y upwards, from -1 to 1.
+  struct image_point {
     double x, y, squared;
     [[nodiscard]] bool is_on_sphere() const noexcept { return squared < 1.0; }
   };
-  [[nodiscard]] surface_frame surface_at(const location& seen) const noexcept {
+  [[nodiscard]] surface_frame surface_at(const image_point& seen) const noexcept {
     const direction normal(seen.x, seen.y, std::sqrt(1.0 - seen.squared));
     return view_.is_turned ? surface_frame::around(direction::UnitY(), normal) : surface_frame(normal);
   }
-  [[nodiscard]] location at(double row, double column) const noexcept {
+  [[nodiscard]] image_point at(double row, double column) const noexcept {
     const double x = column / view_.size * 2.0 - 1.0, y = 1.0 - row / view_.size * 2.0;
     return {x, y, x * x + y * y};
   }
@@ -139,7 +139,7 @@ class sphere_tiles {
     const even_numbers numbers(pairs, generator);
     for (Eigen::Index i = 0; i < pairs; ++i) {
       const sample_numbers u = numbers[i];
-      const location seen = at(static_cast<double>(top) + side * u.y, static_cast<double>(left) + side * u.x);
+      const image_point seen = at(static_cast<double>(top) + side * u.y, static_cast<double>(left) + side * u.x);
       if (!seen.is_on_sphere()) continue;
       const surface_frame surface = surface_at(seen);
       for (const drawn_light& drawn : {draw_by_material(material_, light_, surface, u.u, u.v),
@@ -162,7 +162,7 @@ class sphere_tiles {
       const even_numbers numbers(count, generator);
       for (Eigen::Index i = 0; i < count; ++i) {
         const sample_numbers u = numbers[i];
-        const location seen = at(static_cast<double>(row) + u.y, static_cast<double>(column) + u.x);
+        const image_point seen = at(static_cast<double>(row) + u.y, static_cast<double>(column) + u.x);
         if (!seen.is_on_sphere()) {
           if (view_.shows_environment) sum += light_.map()(direction(seen.x, seen.y, -3.0));
         } else if (const drawn_light drawn = draw(material_, light_, surface_at(seen), u.u, u.v);

@@ -1,6 +1,6 @@
 #pragma once
-/// Orthographic images of a sphere with any BRDF. For many tables, a faster way: the image as a linear map of a table's
-/// values.
+/// Orthographic images of a sphere with any BRDF. For many tables, `sphere_operator` is faster: the image as a linear
+/// map of a table's values.
 ///
 /// Pixel centres form a regular grid over the square around the unit disc. Pixel centres strictly inside the disc
 /// belong to the sphere (1020 of 36 x 36). Exposure: the lighting is scaled so that a white Lambertian sphere (f =
@@ -51,8 +51,8 @@ namespace detail {
 /// Number of samples that a thread computes at a time.
 inline constexpr Eigen::Index sphere_block = 32;
 
-/// Converts directions in `surface_frame{normal}`, which lights have, to a frame around the vertical axis, if asked
-/// for.
+/// If asked for, converts directions from `surface_frame{normal}`, the frame of lights, to a frame around the vertical
+/// axis.
 class turned_axes {
  public:
   turned_axes(const direction& normal, bool is_turned) : is_turned_(is_turned) {

@@ -49,7 +49,7 @@ class corrected_brdf {
     return corrected(estimate, sigma);
   }
 
-  /// Tabulates the corrected estimate. Same bytes for any number of threads.
+  /// Tabulates the corrected estimate. Any number of threads gives the same bytes.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     brdf_table table = initial_.tabulate(cells, threads);
     const brdf_table sigma = resample(correction_, cells, threads);

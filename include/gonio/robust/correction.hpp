@@ -22,7 +22,7 @@
 
 namespace gonio {
 
-/// The factor that corrects an estimate, Eq. 4, 5 and 12. It is finite even if the estimate is zero or tiny, because
+/// The factor that corrects an estimate, Eq. 4, 5 and 12. The factor is finite even if the estimate is zero or tiny:
 /// measured materials have cells that are exactly zero.
 struct correction_factor {
   /// Added to measurement and estimate, in sr^-1, so that differences much smaller than this offset have little effect.
@@ -56,8 +56,8 @@ struct correction_factor {
 /// How correction functions are made and used.
 struct correction_rule {
   correction_factor factor = {};
-  /// Whether to add the constant function 1. It keeps the iteration from drifting: if nothing is left to correct, the
-  /// other functions can only approximate 1.
+  /// Whether to add the constant function 1. This function keeps the iteration from drifting: if nothing is left to
+  /// correct, the other functions can only approximate 1.
   bool has_constant = true;
 
   /// Returns the rule of the paper: one correction function for each material, nothing else.
@@ -107,8 +107,8 @@ class leave_one_out_approximations {
 
   [[nodiscard]] const measured<Metric>& materials() const noexcept { return materials_; }
 
-  /// Returns a copy without the materials of these names. Computes only those approximations again that used one of
-  /// them.
+  /// Returns a copy without the materials of these names. Recomputes only the approximations that used one of these
+  /// materials.
   [[nodiscard]] leave_one_out_approximations without(const std::vector<std::string>& excluded) const {
     leave_one_out_approximations fewer(*this);
     fewer.materials_ = at_least_two(materials_.without(excluded));
@@ -190,7 +190,7 @@ class leave_one_out_approximations {
 }  // namespace detail
 
 /// One correction C_i for each material of a basis, followed by the constant function 1 if
-/// `correction_rule::has_constant`. Their metric is linear (Eq. 16).
+/// `correction_rule::has_constant`. The corrections' metric is linear (Eq. 16).
 ///
 /// A material that is excluded, in the `measured` basis or by `without`, has no correction of its own and is not used
 /// to approximate other materials. The corrections hold the materials in memory, because `without` computes

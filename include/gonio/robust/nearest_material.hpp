@@ -31,10 +31,10 @@ struct scaled_material {
 };
 
 /// For each colour channel, finds the material and its factor under which the measurements are most likely a mixture of
-/// inliers and outliers (estimate/outlier_mixture.hpp). The search has two stages, because a few samples exclude most
-/// materials, but thousands are needed to distinguish similar materials if four of five samples are outliers: 1,500
-/// random samples select twenty materials, and 20,000 samples select one of the twenty. The cost is O(materials) for
-/// any number of samples.
+/// inliers and outliers (estimate/outlier_mixture.hpp). The search has two stages: 1,500 random samples select twenty
+/// materials, and 20,000 samples select one of the twenty. A few samples exclude most materials, but distinguishing
+/// similar materials takes thousands if four of five samples are outliers. The cost is O(materials) for any number of
+/// samples.
 template <error_metric Metric>
 class nearest_material {
  public:

@@ -62,8 +62,8 @@ struct robust_start {
   int combinations = 5;
   int corrections = 4;
   /// The nearest material's values over all cells are fitted together with the samples, with this total weight, in
-  /// samples. They determine the result where nothing was measured: otherwise, without samples in the highlight, a
-  /// combination that fits all samples may have any highlight.
+  /// samples. These values determine the result where nothing was measured. Otherwise, without samples in the
+  /// highlight, a combination that fits all samples may have any highlight.
   double expectation = 1.0;
   /// Rounds of the final iteration that use the inlier weights of the start.
   int initial_weight_rounds = 3;
@@ -98,7 +98,8 @@ class robust_run {
 /// 1. Find the nearest material (`nearest_material`) from at most 20,000 of the samples.
 /// 2. Combine materials by relative errors five times, then correct the combination four times, with new outlier
 ///    weights each time. The result is rough, but identifies the inliers.
-/// 3. Combine materials again in their own metric, from the inliers; where there are none, follow the nearest material.
+/// 3. Combine materials again in their own metric, from the inliers; where there are no inliers, follow the nearest
+///    material.
 /// 4. Correct this combination with more samples: three rounds with the inlier weights of step 2, then with new ones.
 ///
 /// Outliers are identified separately in each region of the samples. Otherwise, if a fit misses a highlight but is good

@@ -116,13 +116,13 @@ class sampled_functions {
     return weight > 0.0f && weight * std::max(1.0f, std::abs(value)) >= least;
   }
 
-  [[nodiscard]] auto row(Eigen::Index channel, Eigen::Index place) const noexcept {
-    return Eigen::Map<const Eigen::RowVectorXf>(rows_[channel][place], unknowns_);
+  [[nodiscard]] auto row(Eigen::Index channel, Eigen::Index position) const noexcept {
+    return Eigen::Map<const Eigen::RowVectorXf>(rows_[channel][position], unknowns_);
   }
 
   /// Prefetches the row of a later location: the hardware cannot predict scattered rows.
-  void prefetch_row_after(Eigen::Index channel, Eigen::Index place) const noexcept {
-    const Eigen::Index next = place + 4;
+  void prefetch_row_after(Eigen::Index channel, Eigen::Index position) const noexcept {
+    const Eigen::Index next = position + 4;
     if (next >= size()) return;
     prefetch(rows_[channel][next], unknowns_);
   }

@@ -132,10 +132,10 @@ class active_set {
   }
 
   void drop(Eigen::Index position) {
-    const auto place = passive_.begin() + position;
-    x_[*place] = sign_[*place] = 0.0;
+    const auto dropped = passive_.begin() + position;
+    x_[*dropped] = sign_[*dropped] = 0.0;
     factor_.remove(position);
-    passive_.erase(place);
+    passive_.erase(dropped);
   }
 
   /// Solves Q_PP z = m_P - lambda s_P.
@@ -149,7 +149,7 @@ class active_set {
     return z;
   }
 
-  /// Moves to the optimum of the passive columns. Where a weight would change its sign on the way, stops, lets this
+  /// Moves to the optimum of the passive columns. If a weight would change its sign on the way, stops there, lets its
   /// column leave and starts again. If the optimum is `refined`, bars leaving columns, because they entered due to
   /// rounding.
   void settle(bool refined = false) {

@@ -2,8 +2,8 @@
 /// Chooses the penalty of a Tikhonov solver by how well each observation is predicted from all others. Leave-one-out
 /// (PRESS): Allen, Technometrics 16, 1974 (doi:10.1080/00401706.1974.10489157). Generalised cross-validation: Golub,
 /// Heath and Wahba, Technometrics 21, 1979 (doi:10.1080/00401706.1979.10489751). Both assume independent errors of the
-/// rows. They fail for shared errors, such as those of an image's pixels if light or camera are misplaced
-/// (docs/results/directions.md, docs/results/eta.md).
+/// rows, and fail for shared errors, such as those of an image's pixels if the stated position of light or camera is
+/// wrong (docs/results/directions.md, docs/results/eta.md).
 
 #include <gonio/solve/tikhonov.hpp>
 
@@ -100,7 +100,7 @@ void require_etas(const eta_range& range);
 [[nodiscard]] double choose_eta(std::span<const least_squares_problem> problems, eta_criterion criterion,
                                 const eta_range& plausible = {});
 
-/// `tikhonov` with the eta that `choose_eta` chooses for each problem. It needs the rows of the problem, because normal
+/// `tikhonov` with the eta that `choose_eta` chooses for each problem. Needs the rows of the problem, because normal
 /// equations do not distinguish observations. The objective and the KKT residual use the chosen eta.
 class automatic_tikhonov {
  public:

@@ -122,7 +122,7 @@ class least_squares_problem {
   thread_count threads_;
   std::optional<std::vector<Eigen::Index>> columns_;  // columns of `whole_`; absent if all
   std::shared_ptr<const least_squares_problem>
-      whole_;  // the original problem of a subset, which takes its normal equations from it
+      whole_;  // of a subset: the original problem, whose normal equations the subset uses
   std::shared_ptr<lazy_normal_equations> normal_ = std::make_shared<lazy_normal_equations>();
 };
 

@@ -116,7 +116,7 @@ template <class Function>
     const Eigen::VectorXd step = detail::damped_parabola_step(found.unknowns, flatter, control.damping, bounds);
     if (!step.allFinite()) break;  // the function is NaN at the start
     const double promised = detail::promised_gain(flatter, step);
-    // Stop where steps are tiny or promise no gain.
+    // Stop if the step is tiny or promises no gain.
     const bool tiny = (step.array().abs() <= options.smallest_step * found.unknowns.array().abs().max(1.0)).all();
     const double least_gain = std::max(options.smallest_gain * here.value, options.resolution);
     if (tiny || promised <= least_gain || control.damping > detail::step_control::largest_damping) {

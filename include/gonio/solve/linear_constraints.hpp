@@ -112,8 +112,8 @@ struct constraint_multipliers {
 };
 
 /// Returns the unit of each weight: sqrt(Q_jj), the length of its column. The unit of a column j of zeros is the
-/// largest |D_ij| / s_i over the rows i of D and E, or 1 if that is zero, where s_i is the largest |D_il| / sqrt(Q_ll)
-/// over all columns l that are not zero (the largest |D_il| if the row has no such column). O(k rows).
+/// largest |D_ij| / s_i over the rows i of D and E, or 1 if that is zero. Here s_i is the largest |D_il| / sqrt(Q_ll)
+/// over all columns l that are not zero, or the largest |D_il| if the row has no such column. O(k rows).
 [[nodiscard]] Eigen::VectorXd column_lengths(const normal_equations& normal, const linear_constraints& constraints);
 
 namespace detail {

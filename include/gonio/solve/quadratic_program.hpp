@@ -73,7 +73,7 @@ class program_solver {
   /// Returns the proximal point or, if that is better, the point polished without the shift.
   [[nodiscard]] program_optimum best(const iteration& run, const vector& q, Eigen::Index right_hand_side) const;
 
-  /// Returns true if the objective decreases without limit along a feasible direction, in which its curvature is a
+  /// Returns true if the objective decreases without limit along a feasible direction, where its curvature is only a
   /// rounding error. (If m comes from equations, the slope is at most |b| times the square root of the curvature.)
   [[nodiscard]] bool falls_for_ever(const vector& movement, const vector& q, Eigen::Index right_hand_side) const;
 

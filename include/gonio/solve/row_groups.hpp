@@ -50,7 +50,7 @@ using product_writer = std::function<void(block range, const Eigen::MatrixXd& pr
 void for_each_product(const row_source& rows, const Eigen::MatrixXd& vectors, block groups, thread_count threads,
                       const product_writer& write);
 
-/// Tells how several processes share passes over groups. If there is only one process, its members are not set.
+/// How several processes share passes over groups. If there is only one process, the members are not set.
 struct shared_groups {
   using sum_of = std::function<Eigen::MatrixXd(block groups)>;
 

@@ -23,7 +23,7 @@ using row_block = Eigen::Ref<row_matrix, 0, Eigen::OuterStride<>>;
 [[nodiscard]] row_block columns_of_block(row_block all, Eigen::Index first, Eigen::Index count);
 
 /// A matrix of `rows` x `columns` numbers. `read(range, out)` writes the rows of a range into `out`, which has that
-/// many rows. It is called from several threads at once.
+/// many rows. `read` is called from several threads at once.
 ///
 /// ```cpp
 /// // The powers of 1,000,000 numbers, never stored.

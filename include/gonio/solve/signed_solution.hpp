@@ -1,8 +1,8 @@
 #pragma once
-/// Certifies the weights of NNLS and Lasso solvers, independently of how they were found.
+/// Certifies the weights of NNLS and Lasso solvers, independently of the solver.
 ///
 /// Normal equations square the condition number. They represent the problem of their rows only if epsilon |x| / sigma
-/// is small, where columns are scaled to length 1, |b| to 1, and sigma is the smallest singular value of the relevant
+/// is small. Here columns are scaled to length 1 and |b| to 1; sigma is the smallest singular value of the relevant
 /// columns (Golub and Van Loan, Matrix Computations, 4th ed., 5.3.7). Weights that fail the tests are computed again,
 /// from an orthogonal factorisation of the rows if there are rows, otherwise by the quadratic program.
 
@@ -21,8 +21,8 @@ struct signed_task {
   std::string method;  ///< name of the method in messages
 };
 
-/// Makes a solution of the weights that a solver found (NaN if it failed). The weights of a right-hand side are
-/// computed again unless
+/// Makes a solution from the weights that a solver found (NaN if the solver failed). The weights of a right-hand side
+/// are computed again unless
 /// - their KKT residual is at most 1e-12,
 /// - the objective is in [-b'Wb/2, 0] except for rounding: weights cannot explain more than all of b, and weights of
 ///   zero are allowed,
@@ -30,9 +30,9 @@ struct signed_task {
 ///   KKT residual is relative to the weights). Throws gonio::error naming the method if the new weights fail, too.
 [[nodiscard]] solution certified(const normal_equations& normal, const signed_task& task, Eigen::MatrixXd weights);
 
-/// Makes a solution of the weights of a problem with rows, and computes its residual from the rows. In addition to the
-/// tests for normal equations, requires that the objective of the normal equations agrees with that of the rows to 1e-9
-/// b'Wb / 2, that the gradient excludes an optimum that is lower by more than that, and that `is_resolved` returns
+/// Makes a solution from the weights of a problem with rows, and computes the residual from the rows. In addition to
+/// the tests for normal equations, requires that the objective of the normal equations agrees with that of the rows to
+/// 1e-9 b'Wb / 2, that the gradient excludes an optimum that is lower by more than that, and that `is_resolved` returns
 /// true. O(n k) for n rows and k columns, and O(n k^2) if the rows are factorised.
 [[nodiscard]] solution certified(const least_squares_problem& problem, const signed_task& task,
                                  Eigen::MatrixXd weights);

@@ -1,6 +1,6 @@
 #pragma once
-/// Products with matrices of a few columns, such as the right-hand sides of three colour channels. Their cost is that
-/// of reading the large matrix, which processing it in blocks would not reduce.
+/// Products with matrices of a few columns, such as the right-hand sides of three colour channels. Reading the large
+/// matrix dominates their cost, so processing it in blocks would not help.
 
 #include <gonio/solve/matrix_view.hpp>
 

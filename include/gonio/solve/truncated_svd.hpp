@@ -20,7 +20,7 @@ namespace gonio {
 ///   if singular vectors span the subspace;
 /// - the gradient in the subspace, |V'(A'W(A x - b))|, relative to |A'Wb| + that eigenvalue times |x|;
 /// - the part of x outside of the subspace, relative to |x|.
-/// Magnitudes are those of the largest entry.
+/// The magnitude |.| is that of the largest entry.
 class truncated_svd {
  public:
   /// Throws gonio::error unless the share is above 0 and at most 1.

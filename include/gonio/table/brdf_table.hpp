@@ -90,8 +90,8 @@ class nearest_lookup {
 
 static_assert(brdf<nearest_lookup>);
 
-/// Evaluates a BRDF at every valid cell. Same bytes for any number of threads. Throws gonio::error for a BRDF that says
-/// that it is anisotropic.
+/// Evaluates a BRDF at every valid cell. Any number of threads gives the same bytes. Throws gonio::error if
+/// `f.is_anisotropic()`.
 template <brdf Brdf>
 [[nodiscard]] brdf_table tabulate(const Brdf& f, const valid_cells& cells, thread_count threads = {}) {
   if constexpr (requires { f.is_anisotropic(); })

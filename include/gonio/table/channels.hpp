@@ -15,7 +15,7 @@
 
 namespace gonio {
 
-/// The meaning of the c numbers that belong to a pair of directions.
+/// The meaning of the numbers that belong to a pair of directions.
 ///
 /// ```cpp
 /// const gonio::channels bands({450.0, 550.0, 650.0});
@@ -48,7 +48,7 @@ class channels {
 
   /// Returns true if the channels make a colour. Several wavelengths do if one of them is visible; one channel is grey.
   [[nodiscard]] bool have_colour() const noexcept { return !are_wavelengths() || colour_.has_value(); }
-  /// Returns the linear Rec. 709 colour of a value for each channel; black if no wavelength is visible.
+  /// Returns the linear Rec. 709 colour of `values`, one for each channel; black if no wavelength is visible.
   [[nodiscard]] rgb colour(std::span<const double> values) const;
   /// Returns three numbers for computing, not for display: the colour or, if no wavelength is visible, the means of the
   /// lower, the middle and the upper third of the wavelengths.

@@ -28,27 +28,27 @@ namespace gonio {
 /// gonio::location locate_cell(const wavelengths&, Eigen::Index i) { return gonio::location_of(i); }
 /// static_assert(gonio::domain<wavelengths>);
 /// ```
-template <class Places>
-concept domain = std::copyable<Places> && std::equality_comparable<Places> &&
-    requires(const Places& locations, Eigen::Index place) {
+template <class Domain>
+concept domain = std::copyable<Domain> && std::equality_comparable<Domain> &&
+    requires(const Domain& locations, Eigen::Index i) {
   { locations.size() } -> std::convertible_to<Eigen::Index>;
-  { locate_cell(locations, place) } -> std::same_as<location>;
+  { locate_cell(locations, i) } -> std::same_as<location>;
 };
 
 static_assert(domain<valid_cells>);
 
 /// The number of channels of an observation over a domain.
-template <domain Places>
+template <domain Domain>
 inline constexpr int channels_over = 3;
 
-template <domain Places>
-requires requires { Places::channels; }
-inline constexpr int channels_over<Places> = Places::channels;
+template <domain Domain>
+requires requires { Domain::channels; }
+inline constexpr int channels_over<Domain> = Domain::channels;
 
 /// Returns the number of channels of an observation: the number of wavelengths or, if there are none, `channels_over`.
-template <domain Places>
+template <domain Domain>
 [[nodiscard]] Eigen::Index channels_at(const std::vector<double>& wavelengths) noexcept {
-  return wavelengths.empty() ? channels_over<Places> : std::ssize(wavelengths);
+  return wavelengths.empty() ? channels_over<Domain> : std::ssize(wavelengths);
 }
 
 }  // namespace gonio

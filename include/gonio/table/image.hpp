@@ -16,15 +16,15 @@ using image = xt::xtensor<float, 3>;
 /// Returns an image of one colour.
 [[nodiscard]] image uniform_image(std::size_t rows, std::size_t columns, const rgb& colour = rgb::Zero());
 
-[[nodiscard]] inline rgb pixel(const image& picture, std::size_t row, std::size_t column) noexcept {
-  GONIO_ASSERT(row < picture.shape(0) && column < picture.shape(1));
-  const float* value = picture.data() + 3 * (row * picture.shape(1) + column);
+[[nodiscard]] inline rgb pixel(const image& pixels, std::size_t row, std::size_t column) noexcept {
+  GONIO_ASSERT(row < pixels.shape(0) && column < pixels.shape(1));
+  const float* value = pixels.data() + 3 * (row * pixels.shape(1) + column);
   return {value[0], value[1], value[2]};
 }
 
-inline void set_pixel(image& picture, std::size_t row, std::size_t column, const rgb& colour) noexcept {
-  GONIO_ASSERT(row < picture.shape(0) && column < picture.shape(1));
-  float* value = picture.data() + 3 * (row * picture.shape(1) + column);
+inline void set_pixel(image& pixels, std::size_t row, std::size_t column, const rgb& colour) noexcept {
+  GONIO_ASSERT(row < pixels.shape(0) && column < pixels.shape(1));
+  float* value = pixels.data() + 3 * (row * pixels.shape(1) + column);
   std::ranges::copy(colour.cast<float>(), value);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// A location on a grid at which a field over its valid cells is read: a cell itself, or the corners of the box around
-/// a direction pair with their trilinear weights.
+/// A location at which a field over the valid cells of a grid is read: a single cell, or the corners of the box around
+/// a direction pair, with their trilinear weights.
 
 #include <gonio/table/valid_cells.hpp>
 
@@ -28,9 +28,9 @@ struct location {
 };
 
 /// Returns the location that reads a single cell. The location has no angles, because a domain may have none.
-[[nodiscard]] inline location location_of(Eigen::Index place) noexcept {
+[[nodiscard]] inline location location_of(Eigen::Index cell) noexcept {
   location at;
-  at.cell[0] = static_cast<std::uint32_t>(place);
+  at.cell[0] = static_cast<std::uint32_t>(cell);
   at.weight[0] = 1.0;
   at.count = 1;
   return at;

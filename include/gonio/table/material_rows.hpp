@@ -17,7 +17,7 @@ namespace gonio {
 using cell_rows = Eigen::Ref<cell_matrix, 0, Eigen::OuterStride<>>;
 
 /// Named materials over common cells. `read(range, out)` writes the values of a block of cells, in sr^-1, into `out`: a
-/// row for each cell, with all channels of the first material before those of the next. It is called from several
+/// row for each cell, with all channels of the first material before those of the next. `read` is called from several
 /// threads at once, and may be called repeatedly for the same cells.
 struct material_rows {
   valid_cells cells;

@@ -75,8 +75,8 @@ void require_finite(const Set& things, Eigen::Index cell) {
   refuse({"material '", things.names[thing], "' is not finite at cell ", cell});
 }
 
-/// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first item that is not finite there,
-/// before the map (which may hide an infinity) or after it (which may overflow).
+/// Applies `map` to each value at a cell. Throws gonio::error naming the first item that is not finite there, before
+/// the map (which may hide an infinity) or after it (which may overflow).
 template <observation_set Set, class Map>
 void map_cell(Set& things, Eigen::Index cell, Map&& map) {
   require_finite(things, cell);

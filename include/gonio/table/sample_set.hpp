@@ -73,7 +73,7 @@ struct sample {
   [[nodiscard]] const half_difference& angles() const noexcept { return directions.angles(); }
 };
 
-/// Any range of measurements in colours that a `sample_set` can be made of. To use a struct of your own:
+/// A range of measurements in colours, from which a `sample_set` can be made. To use a struct of your own:
 /// `estimator.fit(readings | std::views::transform(to_sample))`.
 ///
 /// With a model of the library:

@@ -16,8 +16,8 @@
 namespace gonio {
 
 /// Reflectance in sr^-1 at w wavelengths, tabulated over valid cells, cell-major: the spectrum of a cell is contiguous.
-/// 31 wavelengths over MERL's grid take 136 MB. It does not model `brdf`, whose values are colours. `colours` and
-/// `at_wavelength` return a `brdf_table`, which does.
+/// 31 wavelengths over MERL's grid take 136 MB. The class does not model `brdf`, whose values are colours. `colours`
+/// and `at_wavelength` return a `brdf_table`, which does.
 class spectral_table {
  public:
   /// Makes a table of zeros. Wavelengths are in nanometres. Throws gonio::error unless they are positive, finite and
@@ -48,7 +48,7 @@ class spectral_table {
   }
 
   /// Interpolates the spectrum at a location on this table's cells.
-  [[nodiscard]] Eigen::ArrayXf at(const location& place) const;
+  [[nodiscard]] Eigen::ArrayXf at(const location& at) const;
 
   /// Returns the reflectance at one wavelength, as a table whose three channels are equal.
   [[nodiscard]] brdf_table at_wavelength(Eigen::Index band) const;
@@ -63,8 +63,8 @@ class spectral_table {
   cell_matrix values_;
 };
 
-/// Makes a table from tables that have three wavelengths each, in place of red, green and blue: `three(first)` returns
-/// the table of three wavelengths, from number `first` on. Ignores channels after the last wavelength.
+/// Makes a table from tables of three wavelengths each, stored as red, green and blue: `three(first)` returns the table
+/// of three wavelengths, starting with number `first`. Ignores channels after the last wavelength.
 [[nodiscard]] spectral_table tabulate_by_threes(const valid_cells& cells, std::vector<double> wavelengths,
                                                 const std::function<brdf_table(Eigen::Index first)>& three);
 

@@ -10,7 +10,7 @@
 namespace gonio {
 
 /// A surface as seen by a camera: a column for each pixel, row by row, in the camera's world frame and unit of length.
-/// It may come from a formula, from a normal map or from a mesh. 48 bytes a pixel.
+/// The surface may come from a formula, from a normal map or from a mesh. 48 bytes a pixel.
 struct surface_image {
   std::size_t rows = 0, columns = 0;
   Eigen::Matrix3Xd positions;

@@ -1,7 +1,7 @@
 #pragma once
-/// Determines at which position in its cells a table's values were taken. A MERL file does not state it, but the
-/// pattern of its cells without a value, -1 in all three planes, reveals it. Matusik et al., "A Data-Driven Reflectance
-/// Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
+/// Determines the position in its cells at which a table's values were taken. A MERL file does not state this position,
+/// but the pattern of the file's empty cells, -1 in all three planes, reveals it. Matusik et al., "A Data-Driven
+/// Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/error.hpp>
 #include <gonio/table/grid.hpp>
@@ -31,7 +31,7 @@ namespace detail {
 inline constexpr double merl_empty = -1.0;
 
 /// For one anchor, the largest cosine of the marked (empty) cells and the smallest of the unmarked ones. A cell's
-/// cosine is the smaller of those of its two directions.
+/// cosine is the smaller cosine of its two directions.
 struct mark_statistics {
   double largest_marked = -std::numeric_limits<double>::infinity();
   double smallest_unmarked = std::numeric_limits<double>::infinity();
@@ -69,11 +69,11 @@ template <std::predicate<std::size_t> Marked>
 /// Infers the convention of a table from the cells that are marked as empty.
 ///
 /// An anchor explains the marks if, at the anchor's nodes, the smaller cosine of every marked cell is below the smaller
-/// cosine of every unmarked cell. Its minimum cosine is 0 or, if marked cells lie above the horizon, the middle of the
-/// gap between the cosines of marked and unmarked cells. If both anchors explain the marks, the first of these cases
-/// decides: the horizon is in the gap; the gap is above the horizon; cells below the horizon are filled. The centre
-/// wins ties. If no anchor explains them, as in the files of the MERL database itself, or if nothing is marked, the
-/// result is centre and 0. Cells within 1e-9 of the horizon are ignored.
+/// cosine of every unmarked cell. The anchor's minimum cosine is 0 or, if marked cells lie above the horizon, the
+/// middle of the gap between the cosines of marked and unmarked cells. If both anchors explain the marks, the first of
+/// these cases decides: the horizon is in the gap; the gap is above the horizon; cells below the horizon are filled.
+/// The centre wins ties. If no anchor explains the marks, as in the files of the MERL database itself, or if nothing is
+/// marked, the result is centre and 0. Cells within 1e-9 of the horizon are ignored.
 template <std::predicate<std::size_t> Marked>
 [[nodiscard]] table_convention infer_convention(const grid_extents& extents, const Marked& marked) {
   const detail::mark_statistics centre = detail::sort_marks(grid(extents, cell_anchor::centre), marked);

@@ -2,7 +2,7 @@
 /// Interpolates fields over the cells of one grid at all cells of another, a row at a time. The values are those of
 /// `locate` and `interpolate` for each cell, up to float rounding, but take only a few operations each. Trilinear
 /// interpolation is a product of three linear ones. Along an axis, the interpolated field is an arithmetic progression
-/// from node to node, and its exponential is a geometric progression: a multiplication a value instead of an
+/// from node to node, and its exponential is a geometric progression: each value takes a multiplication instead of an
 /// exponential.
 
 #include <gonio/core/assertion.hpp>
@@ -28,7 +28,7 @@ using cell_fields = Eigen::Array<float, Fields, Eigen::Dynamic>;
 /// which is the exponential of the interpolated field.
 enum class weighted_mean { arithmetic, geometric };
 
-/// The valid cells of a grid with one theta_h and theta_d, numbered consecutively. They are adjacent along phi_d,
+/// The valid cells of a grid with one theta_h and theta_d, numbered consecutively. The cells are adjacent along phi_d,
 /// because both cosines depend on |cos phi_d| alone.
 struct cell_row {
   Eigen::Index first = 0;        ///< number of the first cell
@@ -191,10 +191,10 @@ class phi_d_line {
 
 }  // namespace detail
 
-/// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order. `values` is a Fields x
-/// count array of the mean of the fields there. `read(cell, out)` writes the fields of a cell of the source. The
-/// relative error of a geometric mean is below 4e-7 (5 + |field|); the mean itself is infinite for fields above 88. If
-/// a field exceeds 43, every value costs an exponential. O(target cells x Fields).
+/// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order. `values` (Fields x
+/// count) has the means of the fields. `read(cell, out)` writes the fields of a cell of the source. The relative error
+/// of a geometric mean is below 4e-7 (5 + |field|); the mean itself is infinite for fields above 88. If a field exceeds
+/// 43, every value costs an exponential. O(target cells x Fields).
 template <int Fields, weighted_mean Mean, class Read, class Use>
 void upsample(const valid_cells& from, Read&& read, const valid_cells& to, Use&& use, thread_count threads = {}) {
   const grid& source = from.grid();

@@ -51,9 +51,9 @@ class valid_cells {
   }
 
   /// Returns the number of the valid cell that represents a cell of the grid: the cell itself if it is valid, otherwise
-  /// the valid cell with the same theta_d and phi_d and the largest theta_h below its own (if there is none, the last
-  /// valid cell before it in linear order). This continues a field below the horizon: interpolation near the horizon
-  /// reads only valid cells.
+  /// the valid cell with the same theta_d and phi_d and the largest theta_h below its own. If there is none, it is the
+  /// last valid cell, in linear order, before the cell with the same theta_d and phi_d and the smallest theta_h. This
+  /// continues a field below the horizon: interpolation near the horizon reads only valid cells.
   [[nodiscard]] Eigen::Index representative(Eigen::Index linear) const noexcept {
     return index_->representative[linear];
   }

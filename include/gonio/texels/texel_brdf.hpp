@@ -1,7 +1,6 @@
 #pragma once
-/// Evaluates the BRDFs of the texels of a flat sample from their weights. Does for all texels of a map
-/// (io/materials/svbrdf_map.hpp) what `component_brdf` does for a single material. Nielsen et al. 2015
-/// (doi:10.1145/2816795.2818085), Eq. 10.
+/// Evaluates the BRDFs of a map's texels (io/materials/svbrdf_map.hpp) from their weights, as `component_brdf`
+/// evaluates a single material. Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 10.
 
 #include <gonio/core/half.hpp>
 #include <gonio/render/component_brdf.hpp>

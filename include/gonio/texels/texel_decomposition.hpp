@@ -60,8 +60,8 @@ class texel_decomposition {
 
   /// Solves for t texels. `reflectance` is 3t x n, in sr^-1: a column is an image, with red, green and blue of the
   /// first texel, then of the second texel, and so on. Negative reflectance counts as zero, as in the metric. Throws
-  /// gonio::error naming image and texel of the first value that is not finite, or if the size is wrong. Same bytes for
-  /// any number of threads. O(t n (n + r)).
+  /// gonio::error naming image and texel of the first value that is not finite, or if the size is wrong. The bytes do
+  /// not depend on the number of threads. O(t n (n + r)).
   [[nodiscard]] texel_estimates solve(const float_matrix_view& reflectance, thread_count threads = {}) const;
 
  private:

@@ -51,9 +51,9 @@ const shape_demonstration& demonstrated() {
 
 /// Returns the number after a word in the output.
 double number_behind(const std::string& text, const std::string& word) {
-  const std::size_t place = text.find(word);
-  REQUIRE_MESSAGE(place != std::string::npos, word, " is not in: ", text);
-  return std::stod(text.substr(place + word.size()));
+  const std::size_t position = text.find(word);
+  REQUIRE_MESSAGE(position != std::string::npos, word, " is not in: ", text);
+  return std::stod(text.substr(position + word.size()));
 }
 
 /// Returns a mesh without the triangles near one of its vertices.
@@ -68,7 +68,7 @@ gonio::shape::triangle_mesh with_hole(const gonio::shape::triangle_mesh& mesh, E
 
 }  // namespace
 
-TEST_CASE("shape demo: what is known of ears fills a hole better than a smooth surface") {
+TEST_CASE("shape demo: the model of ears fills a hole better than a smooth surface") {
   const auto& made = demonstrated();
   const auto report = read_json(made.report);
   CHECK(report["shapes"] == 40);
@@ -120,7 +120,7 @@ TEST_CASE("shape recover: the scan of the demo, beside the truth") {
   CHECK((found.vertices - shown.vertices).cwiseAbs().maxCoeff() < 1e-3);
 }
 
-TEST_CASE("shape recover: from a pose that was written down, which may be held") {
+TEST_CASE("shape recover: from a pose in a file, which may be held") {
   const auto& made = demonstrated();
   const std::string files = "recover " + made.ear("scan.ply") + " --model " + made.ear("ears.shapes");
   run_shape(files + " --found-pose " + made.at("pose.txt") + " -o " + made.at("first.ply"));
@@ -152,7 +152,7 @@ TEST_CASE("shape recover: from a pose that was written down, which may be held")
   CHECK_FALSE(std::filesystem::exists(made.at("never.ply")));
 }
 
-TEST_CASE("shape learn: a model of meshes in correspondence, and what it recovers") {
+TEST_CASE("shape learn: a model of meshes in correspondence, and its recovery of a hole") {
   const auto& made = demonstrated();
   const gonio::shape::shape_model model = io::read_shape_model(made.ear("ears.shapes"));
   std::string files;
@@ -193,7 +193,7 @@ TEST_CASE("shape recover: how sure the recovered vertices are, from shapes that 
   CHECK_FALSE(std::filesystem::exists(made.at("never.ply")));
 }
 
-TEST_CASE("shape grow: what a model that grows makes of scans, good ones and others") {
+TEST_CASE("shape grow: a growing model accepts good scans and refuses defective ones") {
   const auto report = read_json(run_shape("grow --scans 6 --defects 0.3 --json"));
   CHECK(report["good"].get<int>() + report["defective"].get<int>() == 6);
   CHECK(report["defective"] >= 1);
@@ -206,7 +206,7 @@ TEST_CASE("shape grow: what a model that grows makes of scans, good ones and oth
   CHECK(report["too_far"] == 0);
 }
 
-TEST_CASE("shape recover: scans and models that are none are refused by name") {
+TEST_CASE("shape recover: files without a scan or a model are refused by name") {
   const auto& made = demonstrated();
   const auto refuses_to_recover = [&](const std::string& scan, const std::string& model, const std::string& words) {
     const std::string out = made.at("never.ply");

@@ -128,7 +128,7 @@ TEST_CASE("a mesh is read as it was written, to the last bit") {
   CHECK(here.entries() == 2);
 }
 
-TEST_CASE("what is written is what other programs know") {
+TEST_CASE("written files have the bytes that other programs expect") {
   using namespace std::string_literals;
   const scratch::folder here;
   write_mesh(here / "a.obj", single_triangle());
@@ -186,7 +186,7 @@ TEST_CASE("big-endian PLY from its bytes") {
   CHECK(triangles_of(mesh) == faces{{2, 1, 0}});
 }
 
-TEST_CASE("ascii PLY: vertices in order, used or not, in one place or not, and polygons split into fans") {
+TEST_CASE("ascii PLY: vertices in order, used or not, coincident or not, and polygons split into fans") {
   const scratch::folder here;
   const triangle_mesh mesh =
       mesh_in(here, "a.Ply",
@@ -221,7 +221,7 @@ TEST_CASE("OBJ: all ways to name a corner") {
   CHECK(triangles_of(mesh) == faces{first, first, first, first, first, first, {0, 2, 3}, first, {0, 2, 3}, {0, 3, 6}});
 }
 
-TEST_CASE("what is no mesh file is refused with its path first") {
+TEST_CASE("files without a mesh are refused with their path first") {
   const scratch::folder here;
   for (const char* extension : {".ply", ".obj"}) {
     const auto path = [&](const std::string& name) { return here / (name + extension); };
@@ -340,7 +340,7 @@ TEST_CASE("binary PLY that is cut off anywhere, or goes on, is refused") {
     check_refused([&] { return mesh_in(here, "a.ply", written.substr(0, size)); }, {"a.ply"});
 }
 
-TEST_CASE("text that is cut off is refused where that can be told") {
+TEST_CASE("truncated text is refused if the truncation can be detected") {
   const scratch::folder here;
   const std::string ply = ascii_ply("3", "1", "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   for (std::size_t size = 0; size + 1 < ply.size(); ++size)
@@ -434,7 +434,7 @@ TEST_CASE("damaged mesh files are read or refused") {
   survives("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nvn 0 0 1\nf 1 2 3\nf 1//1 2//1 3//1\nf -1 -2 -3 -4\n");
 }
 
-TEST_CASE("what cannot be written leaves the old file") {
+TEST_CASE("a mesh that is refused leaves the old file") {
   const scratch::folder here;
   const auto refused = [&](const std::string& name, const triangle_mesh& mesh,
                            std::initializer_list<std::string> words) {

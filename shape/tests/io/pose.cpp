@@ -16,7 +16,7 @@ gonio::shape::similarity_transform some_pose() {
 
 }  // namespace
 
-TEST_CASE("pose: what is written is read") {
+TEST_CASE("pose: a written pose is read back") {
   const scratch::folder here;
   const auto pose = some_pose();
   gonio::io::write_pose(here / "pose.txt", pose);
@@ -41,7 +41,7 @@ TEST_CASE("pose: a matrix, or a rotation and a translation, also of four decimal
   CHECK(rotation(1, 0) == doctest::Approx(0.5).epsilon(1e-4));
 }
 
-TEST_CASE("pose: what is no rigid motion, or no pose at all, is refused") {
+TEST_CASE("pose: text without a rigid motion is refused") {
   const scratch::folder here;
   const auto refuses = [&](const std::string& text, const std::string& words) {
     CAPTURE(text);

@@ -78,7 +78,7 @@ std::vector<std::byte> fan_file(const fan_header& header, const gonio::shape::tr
 
 }  // namespace
 
-TEST_CASE("shape model: what is written comes back exactly") {
+TEST_CASE("shape model: a written model is read back exactly") {
   const gonio::shape::shape_model all = learned_fan(), few = fan_model();
   check_equal(io::read_shape_model(io::write_shape_model(all), "x"), all);
   check_equal(io::read_shape_model(io::write_shape_model(few), "x"), few);
@@ -89,7 +89,7 @@ TEST_CASE("shape model: what is written comes back exactly") {
   CHECK(io::read_shape_model(io::write_shape_model(few), "x").shape(weights).vertices == few.shape(weights).vertices);
 }
 
-TEST_CASE("shape model: what was read is written with the same bytes") {
+TEST_CASE("shape model: a model that was read is written with the same bytes") {
   const auto once = io::write_shape_model(fan_model());
   CHECK(io::write_shape_model(io::read_shape_model(once, "x")) == once);
 }

@@ -19,8 +19,7 @@ namespace gonio {
 namespace detail {
 
 /// Columns for the update: the old components Q, the new observations minus their own mean, and the difference of the
-/// means. They are scaled so that their outer products sum to those of all observations minus the mean of all
-/// observations.
+/// means. The columns are scaled: the sum of their outer products equals that of all observations minus their mean.
 struct appended_columns {
   log_relative_pca prior;
   mapped_materials added;

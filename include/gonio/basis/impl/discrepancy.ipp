@@ -15,7 +15,8 @@ namespace gonio {
 
 namespace detail {
 
-GONIO_INLINE discrepancy_place place_of(const half_difference& angles, const correlation_lengths& lengths) noexcept {
+GONIO_INLINE discrepancy_coordinates coordinates_of(const half_difference& angles,
+                                                    const correlation_lengths& lengths) noexcept {
   constexpr double right_angle = std::numbers::pi / 2.0;
   const double radius = 0.5 * std::sin(angles.theta_d) / lengths.azimuth;
   return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle) / lengths.theta_h,
@@ -27,46 +28,48 @@ GONIO_INLINE discrepancy_place place_of(const half_difference& angles, const cor
   return std::exp(-0.5 * squared_distance);
 }
 
-[[nodiscard]] inline double squared_distance(const discrepancy_place& one, const discrepancy_place& other) noexcept {
+[[nodiscard]] inline double squared_distance(const discrepancy_coordinates& one,
+                                             const discrepancy_coordinates& other) noexcept {
   double sum = 0.0;
   for (std::size_t c = 0; c < 4; ++c) sum += (one[c] - other[c]) * (one[c] - other[c]);
   return sum;
 }
 
 /// Returns the covariance k of two locations.
-[[nodiscard]] inline double covariance(const discrepancy_place& one, const discrepancy_place& other) noexcept {
+[[nodiscard]] inline double covariance(const discrepancy_coordinates& one,
+                                       const discrepancy_coordinates& other) noexcept {
   return squared_exponential(squared_distance(one, other));
 }
 
 /// Returns the coordinates of angles. Throws gonio::error if an angle is not finite, or unless the correlation lengths
 /// are positive and finite.
-[[nodiscard]] GONIO_INLINE std::vector<discrepancy_place> places_of(std::span<const half_difference> angles,
-                                                                    const correlation_lengths& lengths) {
+[[nodiscard]] GONIO_INLINE std::vector<discrepancy_coordinates> checked_coordinates(
+    std::span<const half_difference> angles, const correlation_lengths& lengths) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (!positive(lengths.theta_h) || !positive(lengths.theta_d) || !positive(lengths.azimuth))
     refuse({"the correlation lengths of a discrepancy must be positive and finite, not ", lengths.theta_h, ", ",
             lengths.theta_d, " and ", lengths.azimuth});
-  std::vector<discrepancy_place> places;
+  std::vector<discrepancy_coordinates> coordinates;
   for (const half_difference& each : angles) {
-    places.push_back(place_of(each, lengths));
-    for (const double coordinate : places.back())
-      if (!std::isfinite(coordinate)) refuse({"centre ", places.size(), " of a discrepancy is not finite"});
+    coordinates.push_back(coordinates_of(each, lengths));
+    for (const double coordinate : coordinates.back())
+      if (!std::isfinite(coordinate)) refuse({"centre ", coordinates.size(), " of a discrepancy is not finite"});
   }
-  return places;
+  return coordinates;
 }
 
 /// Writes the covariance k of one location with each of the others.
-GONIO_INLINE void covariances_with(const discrepancy_place& place, std::span<const discrepancy_place> others,
+GONIO_INLINE void covariances_with(const discrepancy_coordinates& one, std::span<const discrepancy_coordinates> others,
                                    double* out) {
-  for (std::size_t i = 0; i < others.size(); ++i) out[i] = -0.5 * squared_distance(others[i], place);
+  for (std::size_t i = 0; i < others.size(); ++i) out[i] = -0.5 * squared_distance(others[i], one);
   exponentiate(out, std::ssize(others));
 }
 
-[[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(std::span<const discrepancy_place> places) {
-  const Eigen::Index n = std::ssize(places);
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(std::span<const discrepancy_coordinates> coordinates) {
+  const Eigen::Index n = std::ssize(coordinates);
   Eigen::MatrixXd all(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    covariances_with(places[j], places.subspan(j), &all(j, j));
+    covariances_with(coordinates[j], coordinates.subspan(j), &all(j, j));
     for (Eigen::Index i = j + 1; i < n; ++i) all(j, i) = all(i, j);
   }
   return all;
@@ -76,32 +79,32 @@ GONIO_INLINE void covariances_with(const discrepancy_place& place, std::span<con
 
 GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                     const correlation_lengths& lengths) {
-  return detail::covariance_of(detail::places_of(angles, lengths));
+  return detail::covariance_of(detail::checked_coordinates(angles, lengths));
 }
 
 GONIO_INLINE Eigen::VectorXd discrepancy_covariance(std::span<const half_difference> angles,
-                                                    const half_difference& place, const correlation_lengths& lengths) {
-  const detail::discrepancy_place here = detail::place_of(place, lengths);
+                                                    const half_difference& other, const correlation_lengths& lengths) {
+  const detail::discrepancy_coordinates here = detail::coordinates_of(other, lengths);
   Eigen::VectorXd with(std::ssize(angles));
   for (Eigen::Index i = 0; i < with.size(); ++i)
-    with[i] = detail::covariance(detail::place_of(angles[i], lengths), here);
+    with[i] = detail::covariance(detail::coordinates_of(angles[i], lengths), here);
   return with;
 }
 
 GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                     std::span<const half_difference> others,
                                                     const correlation_lengths& lengths) {
-  const std::vector<detail::discrepancy_place> places = detail::places_of(others, lengths),
-                                               rows = detail::places_of(angles, lengths);
-  Eigen::MatrixXd all(std::ssize(rows), std::ssize(places));
-  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(places[j], rows, &all(0, j));
+  const std::vector<detail::discrepancy_coordinates> columns = detail::checked_coordinates(others, lengths),
+                                                     rows = detail::checked_coordinates(angles, lengths);
+  Eigen::MatrixXd all(std::ssize(rows), std::ssize(columns));
+  for (Eigen::Index j = 0; j < all.cols(); ++j) detail::covariances_with(columns[j], rows, &all(0, j));
   return all;
 }
 
 GONIO_INLINE discrepancy_functions discrepancy_functions::covariances(std::span<const half_difference> centres,
                                                                       const correlation_lengths& lengths) {
   if (centres.empty()) refuse("a discrepancy needs at least one centre");
-  return discrepancy_functions(stored{detail::places_of(centres, lengths), lengths, 1.0, {}});
+  return discrepancy_functions(stored{detail::checked_coordinates(centres, lengths), lengths, 1.0, {}});
 }
 
 GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_difference> centres, double amplitude,
@@ -109,26 +112,26 @@ GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_d
     : discrepancy_functions(covariances(centres, lengths)) {
   if (!(amplitude > 0.0 && std::isfinite(amplitude)))
     refuse({"the amplitude of a discrepancy must be positive and finite, not ", amplitude});
-  Eigen::MatrixXd among = detail::covariance_of(shared_->places);
+  Eigen::MatrixXd among = detail::covariance_of(shared_->coordinates);
   // A small number on the diagonal keeps the matrix positive definite if locations coincide.
   constexpr double least_eigenvalue = 1e-7;
   for (Eigen::Index i = 0; i < among.cols(); ++i) among(i, i) += least_eigenvalue;
   cholesky factors(among);
   if (!factors.positive_definite()) refuse("the covariance of a discrepancy's centres is not positive definite");
-  shared_ = std::make_shared<const stored>(stored{shared_->places, lengths, amplitude, std::move(factors)});
+  shared_ = std::make_shared<const stored>(stored{shared_->coordinates, lengths, amplitude, std::move(factors)});
 }
 
 GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, double* out) const noexcept {
-  const detail::discrepancy_place here = detail::place_of(angles, shared_->lengths);
+  const detail::discrepancy_coordinates here = detail::coordinates_of(angles, shared_->lengths);
   const double scale = std::sqrt(shared_->amplitude);
-  for (Eigen::Index i = 0; i < size(); ++i) out[i] = scale * detail::covariance(shared_->places[i], here);
+  for (Eigen::Index i = 0; i < size(); ++i) out[i] = scale * detail::covariance(shared_->coordinates[i], here);
   if (shared_->factors) shared_->factors->solve_lower_in_place(out);
 }
 
 GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> angles, row_block out) const {
   Eigen::MatrixXd columns(size(), std::ssize(angles));
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    detail::covariances_with(detail::place_of(angles[i], shared_->lengths), shared_->places, &columns(0, i));
+    detail::covariances_with(detail::coordinates_of(angles[i], shared_->lengths), shared_->coordinates, &columns(0, i));
   if (shared_->factors) columns = shared_->factors->solve_lower(columns);
   const double scale = shared_->factors ? std::sqrt(shared_->amplitude) : 1.0;
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
@@ -152,9 +155,9 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
   // Multiply these weights by the covariance's factor of theta_h: three columns for each theta_h of the grid.
   Eigen::MatrixXd by_height(size(), 3 * heights);
   for (int i = 0; i < heights; ++i) {
-    const double place = detail::place_of({over.theta_h(i), 0.0, 0.0}, lengths)[0];
+    const double here = detail::coordinates_of({over.theta_h(i), 0.0, 0.0}, lengths)[0];
     for (Eigen::Index centre = 0; centre < size(); ++centre) {
-      const double along = shared_->places[centre][0] - place;
+      const double along = shared_->coordinates[centre][0] - here;
       const double factor = detail::squared_exponential(along * along);
       for (int c = 0; c < 3; ++c) by_height(centre, 3 * i + c) = factor * centre_weights(centre, c);
     }
@@ -165,14 +168,14 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
       rows, 1,
       [&](Eigen::Index row) {
         const int j = static_cast<int>(row);
-        std::vector<detail::discrepancy_place> places;
+        std::vector<detail::discrepancy_coordinates> coordinates;
         for (int k = 0; k < columns; ++k)
-          places.push_back(detail::place_of({0.0, over.theta_d(j), over.phi_d(k)}, lengths));
+          coordinates.push_back(detail::coordinates_of({0.0, over.theta_d(j), over.phi_d(k)}, lengths));
         Eigen::MatrixXd slice(columns, size());
         for (Eigen::Index centre = 0; centre < size(); ++centre) {
-          detail::discrepancy_place beside = shared_->places[centre];
+          detail::discrepancy_coordinates beside = shared_->coordinates[centre];
           beside[0] = 0.0;  // theta_h has its own factor
-          detail::covariances_with(beside, places, &slice(0, centre));
+          detail::covariances_with(beside, coordinates, &slice(0, centre));
         }
         const Eigen::MatrixXd values = product(slice, by_height);
         for (int i = 0; i < heights; ++i)

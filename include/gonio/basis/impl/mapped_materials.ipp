@@ -29,7 +29,7 @@ GONIO_INLINE void detail::require_finite(const cell_matrix& rows, Eigen::Index r
 struct mapped_materials::state {
   material_rows materials;
   log_relative weights;  ///< only its cosine weights are used
-  bool known;            ///< was the reference known before the first pass?
+  bool known;            ///< true if the reference was known before the first pass
   std::vector<float> reference, mean, variation;
 
   /// Maps a row of reflectances in place.

@@ -29,18 +29,18 @@ GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cel
   constexpr Eigen::Index most_candidates = 60'000;
   const std::vector<Eigen::Index> candidates = random_choice(cells.size(), most_candidates, seed);
   std::mt19937_64 generator(seed);
-  Eigen::Array3Xd places(3, std::ssize(candidates));
+  Eigen::Array3Xd coordinates(3, std::ssize(candidates));
   for (Eigen::Index i = 0; i < std::ssize(candidates); ++i)
-    places.col(i) = radial_coordinates(cells.angles(candidates[i])).array();
+    coordinates.col(i) = radial_coordinates(cells.angles(candidates[i])).array();
 
   std::vector<half_difference> centres;
-  Eigen::Index farthest = std::uniform_int_distribution<Eigen::Index>(0, places.cols() - 1)(generator);
+  Eigen::Index farthest = std::uniform_int_distribution<Eigen::Index>(0, coordinates.cols() - 1)(generator);
   Eigen::ArrayXd nearest =  // squared distance to the nearest centre
-      Eigen::ArrayXd::Constant(places.cols(), std::numeric_limits<double>::infinity());
+      Eigen::ArrayXd::Constant(coordinates.cols(), std::numeric_limits<double>::infinity());
   while (std::ssize(centres) < count && nearest[farthest] > 0.0) {
     centres.push_back(cells.angles(candidates[farthest]));
-    const Eigen::Array3d centre = places.col(farthest);
-    nearest = nearest.min((places.colwise() - centre).square().colwise().sum().transpose());
+    const Eigen::Array3d centre = coordinates.col(farthest);
+    nearest = nearest.min((coordinates.colwise() - centre).square().colwise().sum().transpose());
     nearest.maxCoeff(&farthest);
   }
   if (std::ssize(centres) < count)

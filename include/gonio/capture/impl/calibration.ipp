@@ -49,7 +49,7 @@ GONIO_INLINE measured_radiance radiance_of(const reading& taken, Eigen::Index ch
                          known.saturation);
 }
 
-/// Returns f of a material in each channel by the lamp's strength in that channel.
+/// Returns f of a material in each channel, from the lamp's strength in that channel.
 GONIO_INLINE measured_reflectance reflectance_under(const std::array<std::optional<reference_light>, 3>& lights,
                                                     const reading& material, const direction_pair& at,
                                                     const illumination& material_at, const calibration& known) {

@@ -55,8 +55,8 @@ GONIO_INLINE double camera_response::count(double exposure) const noexcept {
   return spacing() * static_cast<double>(left + 1) * std::exp((wanted - values_[left]) / rise * log_ratio);
 }
 
-GONIO_INLINE std::pair<Eigen::Index, double> camera_response::place_of(double count, double spacing,
-                                                                       Eigen::Index knots) noexcept {
+GONIO_INLINE std::pair<Eigen::Index, double> camera_response::knot_position(double count, double spacing,
+                                                                            Eigen::Index knots) noexcept {
   const double position = count / spacing;
   const Eigen::Index left = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(position) - 1, 0, knots - 2);
   const auto knot = static_cast<double>(left + 1);
@@ -132,7 +132,7 @@ GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::
     const double count = counts(pixel, j), log_time = log_times[j];
     const double weight = std::pow(hat(count, saturation_), 2);
     if (!(weight > 0.0)) continue;
-    const auto [left, share] = camera_response::place_of(count, spacing_, rhs_.size());
+    const auto [left, share] = camera_response::knot_position(count, spacing_, rhs_.size());
     const std::array<double, 2> row{1.0 - share, share};
     for (Eigen::Index a = 0; a < 2; ++a) {
       const double weighted = weight * row[a];

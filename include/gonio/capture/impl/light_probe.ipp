@@ -64,7 +64,7 @@ GONIO_INLINE outline_circle filled_outline(const image& photograph) {
 namespace gonio::capture::detail {
 
 /// Returns the photograph with highlights compressed, L / (L + m), where m is the median brightness in the middle of
-/// the image. A lamp's mirror image is a thousand times as bright as most of the sphere, and the rim darker than that.
+/// the image. A lamp's mirror image is a thousand times as bright as most of the sphere; the rim is darker than most.
 GONIO_INLINE image compressed(const image& photograph) {
   const std::size_t rows = photograph.shape(0), columns = photograph.shape(1);
   std::vector<double> middle;
@@ -85,7 +85,7 @@ GONIO_INLINE image compressed(const image& photograph) {
 namespace gonio::capture {
 
 GONIO_INLINE outline_circle find_outline(const image& photograph) {
-  // From far away the outline is a circle: a camera whose image spans a hundredth of a radian.
+  // Assume a camera whose image spans a hundredth of a radian: from far away, the outline is a circle.
   constexpr double field_of_view = 0.01;
   const auto rows = static_cast<double>(photograph.shape(0)), columns = static_cast<double>(photograph.shape(1));
   const double focal_length = std::max(rows, columns) / field_of_view;
@@ -133,11 +133,11 @@ GONIO_INLINE void require_unwrappable(const unwrap_options& options) {
     refuse("a mirror's reflectance must be above 0 and up to 1, not " + std::to_string(options.reflectance));
 }
 
-GONIO_INLINE rgb read_probe(const light_probe& probe, const Eigen::Vector2d& place) noexcept {
+GONIO_INLINE rgb read_probe(const light_probe& probe, const Eigen::Vector2d& position) noexcept {
   const auto& [middle_column, middle_row, radius] = probe.outline;
-  const double whole = radius - std::sqrt(0.5), distance = place.norm();
+  const double whole = radius - std::sqrt(0.5), distance = position.norm();
   for (double rim = 1.0 - 0.75 / radius;; rim -= 0.25 / radius) {
-    const Eigen::Vector2d inside = distance > rim ? Eigen::Vector2d(place * (rim / distance)) : place;
+    const Eigen::Vector2d inside = distance > rim ? Eigen::Vector2d(position * (rim / distance)) : position;
     const double column = middle_column + radius * inside.x() - 0.5, row = middle_row - radius * inside.y() - 0.5;
     rgb sum = rgb::Zero();
     double weights = 0.0;
@@ -154,7 +154,7 @@ GONIO_INLINE rgb read_probe(const light_probe& probe, const Eigen::Vector2d& pla
 
 GONIO_INLINE rgb light_from(const light_probe& probe, const direction& towards) noexcept {
   const direction seen = probe.axes.transpose() * towards;
-  if (const auto place = probe.sphere.place_of(seen)) return read_probe(probe, *place);
+  if (const auto position = probe.sphere.position_of(seen)) return read_probe(probe, *position);
   const double across = std::hypot(seen.x(), seen.y());
   return read_probe(probe,
                     across > 0.0 ? Eigen::Vector2d(seen.x() / across, seen.y() / across) : Eigen::Vector2d(1.0, 0.0));

@@ -27,7 +27,7 @@ GONIO_INLINE mirror_sphere mirror_sphere::spanning(double angle) {
   return mirror_sphere(1.0 / std::sin(angle / 2.0));
 }
 
-GONIO_INLINE std::optional<Eigen::Vector2d> mirror_sphere::place_of(const direction& light) const noexcept {
+GONIO_INLINE std::optional<Eigen::Vector2d> mirror_sphere::position_of(const direction& light) const noexcept {
   const double across = std::hypot(light.x(), light.y()), polar = std::atan2(across, light.z());
   if (polar > largest_polar_angle()) return {};
   const double radius = radius_of(normal_angle(polar));
@@ -35,12 +35,12 @@ GONIO_INLINE std::optional<Eigen::Vector2d> mirror_sphere::place_of(const direct
   return Eigen::Vector2d(light.x(), light.y()) * (radius / across);
 }
 
-GONIO_INLINE std::optional<direction> mirror_sphere::light_at(const Eigen::Vector2d& place) const noexcept {
-  const double radius = place.norm();
+GONIO_INLINE std::optional<direction> mirror_sphere::light_at(const Eigen::Vector2d& position) const noexcept {
+  const double radius = position.norm();
   if (!(radius <= 1.0)) return {};
   const double angle = angle_of(radius), polar = 2.0 * angle + leaning(angle);
   const Eigen::Vector2d across =
-      radius > 0.0 ? Eigen::Vector2d(place * (std::sin(polar) / radius)) : Eigen::Vector2d::Zero();
+      radius > 0.0 ? Eigen::Vector2d(position * (std::sin(polar) / radius)) : Eigen::Vector2d::Zero();
   return direction(across.x(), across.y(), std::cos(polar));
 }
 

@@ -59,13 +59,13 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
 
 namespace gonio::capture::detail {
 
-GONIO_INLINE std::optional<seen_place> place_of_pixel(const near_field_setup& setup, std::size_t row,
+GONIO_INLINE std::optional<seen_point> point_of_pixel(const near_field_setup& setup, std::size_t row,
                                                       std::size_t column) {
   if (!setup.mask.empty() && !setup.mask[row * setup.camera.intrinsics().columns + column]) return {};
   const ray line = setup.camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   const auto point = line.at_ground();
   if (!point || (setup.disc && !setup.disc->contains(*point))) return {};
-  return seen_place{*point, -line.towards};
+  return seen_point{*point, -line.towards};
 }
 
 /// Returns true if a value is saturated. Throws gonio::error for other values that are not finite; `what` names the
@@ -82,11 +82,11 @@ GONIO_INLINE bool is_saturated(const rgb& value, const near_field_setup& setup, 
 GONIO_INLINE std::optional<near_field_reading> read_pixel(const image& picture, const near_field_setup& setup,
                                                           const std::optional<white_reference>& white, std::size_t row,
                                                           std::size_t column) {
-  const auto place = place_of_pixel(setup, row, column);
-  if (!place) return {};
-  const lit_point lit = light_at(setup.light, place->position);
+  const auto point = point_of_pixel(setup, row, column);
+  if (!point) return {};
+  const lit_point lit = light_at(setup.light, point->position);
   const rgb radiance = pixel(picture, row, column);
-  near_field_reading reading{lit.towards, place->view, radiance / (lit.irradiance * lit.towards.z()),
+  near_field_reading reading{lit.towards, point->view, radiance / (lit.irradiance * lit.towards.z()),
                              is_saturated(radiance, setup, "", row, column)};
   if (!white) return reading;
   const illumination here{lit.towards.z(), lit.distance};
@@ -104,9 +104,9 @@ GONIO_INLINE aperture block_aperture(const near_field_setup& setup, double row, 
   const double half = 0.5 * static_cast<double>(setup.block);
   const auto half_vector_at = [&](double down, double right) -> std::optional<Eigen::Vector3d> {
     const ray line = setup.camera.ray_through(column + right * half, row + down * half);
-    const auto place = line.at_ground();
-    if (!place) return {};
-    return (light_at(setup.light, *place).towards - line.towards).normalized();
+    const auto point = line.at_ground();
+    if (!point) return {};
+    return (light_at(setup.light, *point).towards - line.towards).normalized();
   };
   const auto left = half_vector_at(0.0, -1.0), right = half_vector_at(0.0, 1.0), top = half_vector_at(-1.0, 0.0),
              bottom = half_vector_at(1.0, 0.0);
@@ -141,7 +141,7 @@ GONIO_INLINE std::vector<Eigen::Index> pixels_of_region(const near_field_setup& 
   std::vector<Eigen::Index> seen;
   for (std::size_t row = window.row; row < window.row + window.rows; ++row)
     for (std::size_t column = window.column; column < window.column + window.columns; ++column)
-      if (detail::place_of_pixel(setup, row, column)) seen.push_back(row * whole.columns + column);
+      if (detail::point_of_pixel(setup, row, column)) seen.push_back(row * whole.columns + column);
   return seen;
 }
 

@@ -187,13 +187,14 @@ GONIO_INLINE placed_sphere sphere_of(const Eigen::Vector3d& plane, const lens_ca
 }
 
 /// Returns the outline points at which the cosine of the light's angle of incidence is above 0.2.
-GONIO_INLINE std::vector<Eigen::Index> well_lit(const Eigen::Matrix3Xd& rays, const std::vector<Eigen::Index>& places,
+GONIO_INLINE std::vector<Eigen::Index> well_lit(const Eigen::Matrix3Xd& rays,
+                                                const std::vector<Eigen::Index>& candidates,
                                                 const placed_sphere& sphere, const Eigen::Vector3d& camera,
                                                 const surface_light& light) {
   constexpr double smallest_cosine = 0.2;
   const Eigen::Vector3d from = camera - sphere.centre;
   std::vector<Eigen::Index> lit;
-  for (const Eigen::Index i : places) {
+  for (const Eigen::Index i : candidates) {
     // Take the ray's point nearest to the centre: a ray of the outline touches the sphere there.
     const Eigen::Vector3d towards = rays.col(i), off = from - towards * from.dot(towards), normal = off.normalized();
     const Eigen::Vector3d point = sphere.centre + sphere.radius * normal;
@@ -287,12 +288,12 @@ GONIO_INLINE fitted_outline sphere_within(const outline_circle& circle, const le
   if (!(circle.radius > 0.0 && std::isfinite(circle.radius) && std::isfinite(circle.column) &&
         std::isfinite(circle.row)))
     refuse("an outline needs a finite centre and a positive radius");
-  std::vector<Eigen::Vector2d> places;
+  std::vector<Eigen::Vector2d> points;
   for (int i = 0; i < 72; ++i) {
     const double turn = 2.0 * std::numbers::pi * i / 72.0;
-    places.emplace_back(circle.column + circle.radius * std::cos(turn), circle.row + circle.radius * std::sin(turn));
+    points.emplace_back(circle.column + circle.radius * std::cos(turn), circle.row + circle.radius * std::sin(turn));
   }
-  return fit_sphere(places, camera, radius, {.inlier_distance = std::max(1.0, 0.1 * circle.radius)});
+  return fit_sphere(points, camera, radius, {.inlier_distance = std::max(1.0, 0.1 * circle.radius)});
 }
 
 }  // namespace gonio::capture

@@ -174,8 +174,7 @@ struct cell_mean {
 
 using cell_means = std::map<Eigen::Index, cell_mean>;
 
-/// Returns the median over the cells of the scatter of their pixels, for cells with at least four pixels; 0 if there is
-/// no such cell.
+/// Returns the median scatter of the cells with at least four pixels; 0 if there is no such cell.
 GONIO_INLINE rgb median_scatter(const cell_means& cells) {
   constexpr Eigen::Index enough = 4;
   std::array<std::vector<double>, 3> all;

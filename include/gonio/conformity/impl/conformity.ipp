@@ -86,10 +86,10 @@ GONIO_INLINE located_samples both_of(const located_samples& part, const located_
 }
 
 GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<location>& locations,
-                                                       const half_difference& place, double limit) {
+                                                       const half_difference& angles, double limit) {
   std::vector<Eigen::Index> same;
   for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
-    if (is_same(locations[i].angles, place, limit)) same.push_back(i);
+    if (is_same(locations[i].angles, angles, limit)) same.push_back(i);
   return same;
 }
 

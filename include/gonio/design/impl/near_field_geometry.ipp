@@ -47,14 +47,14 @@ GONIO_INLINE near_field_geometry::near_field_geometry(const near_field_options& 
 }
 
 GONIO_INLINE bool near_field_geometry::allows(Eigen::Index candidate) const {
-  const grid_step at = place(candidate);
+  const grid_step at = position_of(candidate);
   const direction_pair pose = centre(candidate);
   const bool at_zenith = polar(options_.fixed_light, at[0]) == 0.0 || polar(options_.fixed_camera, at[1]) == 0.0;
   return !(at_zenith && at[2] > 0) && options_.constraint(pose);
 }
 
 GONIO_INLINE direction_pair near_field_geometry::centre(Eigen::Index candidate) const {
-  const grid_step at = place(candidate);
+  const grid_step at = position_of(candidate);
   return {spherical_direction(polar(options_.fixed_light, at[0]), options_.step * at[2]),
           spherical_direction(polar(options_.fixed_camera, at[1]), 0.0)};
 }
@@ -87,7 +87,7 @@ GONIO_INLINE std::vector<half_difference> near_field_geometry::directions(Eigen:
 }
 
 GONIO_INLINE std::optional<Eigen::Index> near_field_geometry::stepped(Eigen::Index from, const grid_step& step) const {
-  grid_step at = place(from);
+  grid_step at = position_of(from);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     at[axis] += step[axis];
     if (at[axis] < 0 || at[axis] >= extents_[axis]) return {};

@@ -12,7 +12,7 @@
 
 namespace gonio::detail {
 
-GONIO_INLINE std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle) {
+GONIO_INLINE std::array<direction_pair, 8> pairs_with_angular_error(const direction_pair& meant, double angle) {
   std::array<direction_pair, 8> pairs;
   for (Eigen::Index quarter = 0; quarter < 4; ++quarter) {
     const double side = static_cast<double>(quarter) * std::numbers::pi / 2.0;

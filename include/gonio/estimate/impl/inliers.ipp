@@ -85,7 +85,7 @@ namespace detail {
 /// Returns a number that identifies a neighbourhood of directions. Combines four integers between -500 and 500.
 [[nodiscard]] GONIO_INLINE double neighbourhood_of(const half_difference& angles, const correlation_lengths& lengths) {
   double number = 0.0;
-  for (const double coordinate : place_of(angles, lengths)) number = 1000.0 * number + std::floor(coordinate);
+  for (const double coordinate : coordinates_of(angles, lengths)) number = 1000.0 * number + std::floor(coordinate);
   return number;
 }
 
@@ -108,12 +108,12 @@ GONIO_INLINE std::vector<Eigen::Index> judged_together(const located_samples& sa
     by_rank.emplace_back(rank, k);
   }
   // Order the samples: first one sample of each neighbourhood, then a second sample of each, and so on.
-  const std::vector<Eigen::Index> spread = in_order(std::move(by_rank));
+  const std::vector<Eigen::Index> ordered = in_order(std::move(by_rank));
   // Choose two thirds at random, and the rest in this order.
   std::vector<Eigen::Index> chosen = random_choice(n, 2 * most_judged / 3, 0);
   std::vector<bool> is_chosen(n, false);
   for (const Eigen::Index i : chosen) is_chosen[i] = true;
-  for (auto next = spread.begin(); std::ssize(chosen) < most_judged; ++next)
+  for (auto next = ordered.begin(); std::ssize(chosen) < most_judged; ++next)
     if (!is_chosen[random[*next]]) chosen.push_back(random[*next]);
   std::sort(chosen.begin(), chosen.end());
   return chosen;

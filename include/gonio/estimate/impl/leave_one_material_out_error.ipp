@@ -39,7 +39,7 @@ namespace detail {
   return found;
 }
 
-/// Returns row and column of the largest remaining entry: the pivot of a step of Gaussian elimination.
+/// Returns the row and the column of the largest remaining entry: the pivot of a step of Gaussian elimination.
 [[nodiscard]] GONIO_INLINE std::array<Eigen::Index, 2> largest_beyond(Eigen::Index step, const Eigen::MatrixXd& a) {
   std::array<Eigen::Index, 2> found{step, step};
   for (Eigen::Index i = step; i < a.rows(); ++i)
@@ -136,14 +136,14 @@ GONIO_INLINE void leave_one_material_out_error::require_sensible(Eigen::Index lo
 
 GONIO_INLINE void leave_one_material_out_error::initialise(const sums& all, const Eigen::VectorXd& singular_values,
                                                            const Eigen::MatrixXf& coefficients, Eigen::Index channels) {
-  const Eigen::VectorXd energies = singular_values.cwiseProduct(singular_values);
-  decompose(energies, all);
+  const Eigen::VectorXd squares = singular_values.cwiseProduct(singular_values);
+  decompose(squares, all);
   for (Eigen::Index row = 0; row < coefficients.rows(); row += channels)
-    materials_.push_back(leave_out(energies, coefficients.middleRows(row, channels).transpose().cast<double>(),
+    materials_.push_back(leave_out(squares, coefficients.middleRows(row, channels).transpose().cast<double>(),
                                    static_cast<double>(coefficients.rows())));
 }
 
-GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd& energies, const sums& all) {
+GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd& squares, const sums& all) {
   const symmetric_eigen eigen = decompose_symmetric(all.gram, "a least-squares problem");
   const double largest = eigen.values[eigen.values.size() - 1];
   const Eigen::Index rank = std::count_if(eigen.values.data(), eigen.values.data() + eigen.values.size(),
@@ -153,14 +153,14 @@ GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd&
   values_ = eigen.values.tail(rank);
   vectors_ = eigen.vectors.rightCols(rank);
   const Eigen::MatrixXd transposed = vectors_.transpose();
-  norm_ = product(transposed, detail::scaled_rows(energies, vectors_));
-  noise_energy_ = norm_.cwiseProduct(product(transposed, product(all.noise, vectors_)));
+  norm_ = product(transposed, detail::scaled_rows(squares, vectors_));
+  noise_norm_ = norm_.cwiseProduct(product(transposed, product(all.noise, vectors_)));
   shift_.resize(rank);
   for (Eigen::Index j = 0; j < rank; ++j) shift_[j] = vectors_.col(j).dot(all.shift);
 }
 
 GONIO_INLINE leave_one_material_out_error::left_out leave_one_material_out_error::leave_out(
-    const Eigen::VectorXd& energies, const Eigen::MatrixXd& own, double observations) const {
+    const Eigen::VectorXd& squares, const Eigen::MatrixXd& own, double observations) const {
   const Eigen::Index channels = own.cols();
   const auto count = static_cast<double>(channels);
   const double others = observations - count;
@@ -173,7 +173,7 @@ GONIO_INLINE leave_one_material_out_error::left_out leave_one_material_out_error
     t.col(c) = own.col(c) + sum / others;
     n.col(c) = own.col(c) + b * sum;
   }
-  const Eigen::MatrixXd mt = detail::scaled_rows(energies, t), mn = detail::scaled_rows(energies, n);
+  const Eigen::MatrixXd mt = detail::scaled_rows(squares, t), mn = detail::scaled_rows(squares, n);
   Eigen::MatrixXd all(own.rows(), 4 * channels);
   all.leftCols(channels) = t;
   all.middleCols(channels, channels) = n;
@@ -193,7 +193,7 @@ GONIO_INLINE double leave_one_material_out_error::error_at(double eta) const {
   Eigen::VectorXd d(values_.size());
   for (Eigen::Index j = 0; j < d.size(); ++j) d[j] = 1.0 / (values_[j] + eta);
   double variance = 0.0;
-  for (Eigen::Index j = 0; j < d.size(); ++j) variance += d[j] * noise_energy_.col(j).dot(d);
+  for (Eigen::Index j = 0; j < d.size(); ++j) variance += d[j] * noise_norm_.col(j).dot(d);
   double sum = 0.0, count = 0.0;
   for (const left_out& material : materials_) {
     const Eigen::VectorXd bias = squared_bias(material, d);
@@ -222,7 +222,7 @@ GONIO_INLINE Eigen::VectorXd leave_one_material_out_error::squared_bias(const le
   detail::add_combined(material.mn, -2.0 * p, gradient);
   for (Eigen::Index c = 0; c < channels; ++c) gradient.col(c) -= 2.0 * material.mt.col(c);
   // Sum the squared distance of each channel in the norm M.
-  Eigen::VectorXd found = material.energy;
+  Eigen::VectorXd found = material.tmt;
   for (Eigen::Index c = 0; c < channels; ++c) {
     found[c] += u.col(c).dot(gradient.col(c));
     for (Eigen::Index i = 0; i < channels; ++i) {

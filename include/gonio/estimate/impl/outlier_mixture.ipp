@@ -56,14 +56,14 @@ namespace detail {
 /// The number of samples whose weights are computed at a time, so that their logarithms stay in the cache.
 inline constexpr Eigen::Index samples_at_once = 4096;
 
-/// Returns the share p that maximises the sum of ln(p g + (1 - p) o) + ln p, where g and o are the densities of inliers
-/// and of outliers at each measurement. Bisects the slope, which decreases with p.
-[[nodiscard]] GONIO_INLINE double most_probable_share(const Eigen::VectorXd& good,
+/// Returns the inlier fraction p that maximises ln p plus the sum of ln(p g + (1 - p) o), where g and o are the
+/// densities of inliers and of outliers at each measurement. Bisects the slope, which decreases with p.
+[[nodiscard]] GONIO_INLINE double most_probable_share(const Eigen::VectorXd& inliers,
                                                       const std::vector<double>& outliers) {
-  Eigen::VectorXd term(good.size());
+  Eigen::VectorXd term(inliers.size());
   const auto slope = [&](double share) {
     for (Eigen::Index i = 0; i < term.size(); ++i)
-      term[i] = (good[i] - outliers[i]) / (outliers[i] + share * (good[i] - outliers[i]));
+      term[i] = (inliers[i] - outliers[i]) / (outliers[i] + share * (inliers[i] - outliers[i]));
     return term.sum() + 1.0 / share;
   };
   double low = 0.02, high = 0.999;
@@ -87,9 +87,9 @@ GONIO_INLINE outlier_mixture estimate_mixture(const std::vector<double>& residua
       shares[i] = now.probability(residuals[i], outliers[i]);
       on_tail[i] = shares[i] * now.tail_weight(residuals[i]) * (residuals[i] * residuals[i]);
     }
-    const double good = shares.sum(), squares = (nu + 1.0) / nu * on_tail.sum();
-    outlier_mixture next{now.inlier_fraction, std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
-    for (Eigen::Index i = 0; i < shares.size(); ++i) densities[i] = next.good_density(residuals[i]);
+    const double inliers = shares.sum(), squares = (nu + 1.0) / nu * on_tail.sum();
+    outlier_mixture next{now.inlier_fraction, std::max(std::sqrt(squares / inliers), outlier_mixture::smallest_scale)};
+    for (Eigen::Index i = 0; i < shares.size(); ++i) densities[i] = next.inlier_density(residuals[i]);
     next.inlier_fraction = detail::most_probable_share(densities, outliers);
     const bool settled = std::abs(next.inlier_fraction - now.inlier_fraction) < 1e-4 &&
                          std::abs(next.scale - now.scale) < 1e-3 * now.scale;
@@ -108,12 +108,12 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
   for (float& distance : found.distance) distance *= scale;
   std::vector<float> weights(measured.cols());
   if (regions) {
-    const double typical = half_of_the_good(found.distance, regions->all(), mixture.inlier_fraction);
+    const double typical = median_of_inliers(found.distance, regions->all(), mixture.inlier_fraction);
     for_each_index(
         regions->count(), 1,
         [&](Eigen::Index region) {
           const std::span<const Eigen::Index> here = (*regions)[region];
-          const double ratio = half_of_the_good(found.distance, here, mixture.inlier_fraction) / typical;
+          const double ratio = median_of_inliers(found.distance, here, mixture.inlier_fraction) / typical;
           const outlier_mixture own = rescaled(mixture, ratio);
           for (const Eigen::Index i : here) weights[i] = weigh(own, found, i);
         },
@@ -178,8 +178,9 @@ GONIO_INLINE automatic_weights::deviations automatic_weights::deviate(const chan
 
 GONIO_INLINE float automatic_weights::weigh(const outlier_mixture& mixture, const deviations& found,
                                             Eigen::Index sample) const {
-  const double good = mixture.probability(double{found.residual[sample]}, found.outliers[sample]);
-  return static_cast<float>(down_weight_tail ? good * mixture.tail_weight(double{found.distance[sample]}) : good);
+  const double probability = mixture.probability(double{found.residual[sample]}, found.outliers[sample]);
+  return static_cast<float>(down_weight_tail ? probability * mixture.tail_weight(double{found.distance[sample]})
+                                             : probability);
 }
 
 GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& found,
@@ -187,23 +188,23 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
   constexpr double nu = outlier_mixture::degrees_of_freedom;
   const Eigen::Index count = std::ssize(found.residual);
   // Compute squared distances, and the probability that each sample is an inlier.
-  std::vector<double> squares(count), good(count);
+  std::vector<double> squares(count), probabilities(count);
   for_each_index(
       count, detail::samples_at_once,
       [&](Eigen::Index i) {
         const double distance = found.distance[i];
         squares[i] = distance * distance;
-        good[i] = mixture.probability(double{found.residual[i]}, found.outliers[i]);
+        probabilities[i] = mixture.probability(double{found.residual[i]}, found.outliers[i]);
       },
       threads);
-  // Returns the sum of good / (1 + inverse * square) over the samples. If `of_squares`, each term is multiplied by its
-  // square.
+  // Returns the sum of probability / (1 + inverse * square) over the samples. If `of_squares`, each term is multiplied
+  // by its square.
   const auto sum = [&](double inverse, bool of_squares) {
     return sum_over_blocks(
         count, detail::samples_at_once, 0.0,
         [&](double& total, block range) {
           for (Eigen::Index i = range.begin; i < range.end; ++i)
-            total += good[i] * (of_squares ? squares[i] : 1.0) / (1.0 + inverse * squares[i]);
+            total += probabilities[i] * (of_squares ? squares[i] : 1.0) / (1.0 + inverse * squares[i]);
         },
         threads);
   };
@@ -217,8 +218,9 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
   return scale;
 }
 
-GONIO_INLINE double automatic_weights::half_of_the_good(const std::vector<float>& residuals,
-                                                        std::span<const Eigen::Index> samples, double inlier_fraction) {
+GONIO_INLINE double automatic_weights::median_of_inliers(const std::vector<float>& residuals,
+                                                         std::span<const Eigen::Index> samples,
+                                                         double inlier_fraction) {
   std::vector<double> sorted;
   sorted.reserve(samples.size());
   for (const Eigen::Index sample : samples) sorted.push_back(double{residuals[sample]});

@@ -274,9 +274,9 @@ GONIO_INLINE double sample_process::deviation_before(const Eigen::RowVectorXd& r
                    (expected().doubts ? model.doubt.variance : 0.0) + error_variance_at(model, angles));
 }
 
-GONIO_INLINE process_prediction sample_process::predict(const located_rows& places,
+GONIO_INLINE process_prediction sample_process::predict(const located_rows& others,
                                                         Eigen::MatrixXd covariance_before) const {
-  const Eigen::MatrixXd with = expected().between(places, at());
+  const Eigen::MatrixXd with = expected().between(others, at());
   const Eigen::MatrixXd gain = factors().solve(with.transpose());
   process_prediction found{product(gain.transpose(), values_), std::move(covariance_before)};
   add_scaled(-1.0, product(with, gain), found.covariance);

@@ -25,20 +25,20 @@ GONIO_INLINE scaled_likelihood locate_mixture(const std::vector<double>& differe
   scaled_likelihood found{start};
   for (int step = 0; step < steps; ++step) {
     for (Eigen::Index i = 0; i < count; ++i) tails[i] = mixture.tail_weight(differences[i] - found.logarithm_of_factor);
-    double good = 0.0, weight = 0.0, squares = 0.0, located = 0.0;
+    double inliers = 0.0, weight = 0.0, squares = 0.0, located = 0.0;
     for (Eigen::Index i = 0; i < count; ++i) {
       const double residual = differences[i] - found.logarithm_of_factor;
       const double inlier = mixture.inlier_fraction * mixture.density_on_tail(tails[i]);
       densities[i] = inlier + (1.0 - mixture.inlier_fraction) * outliers[i];
       const double share = inlier / densities[i], on_tail = share * tails[i];
-      good += share;
+      inliers += share;
       weight += on_tail;
       squares += (nu + 1.0) / nu * on_tail * residual * residual;
       located += on_tail * differences[i];
     }
     found.logarithm_of_factor = weight > 0.0 ? located / weight : start;
-    mixture = {std::clamp(good / static_cast<double>(count), 0.05, 0.99),
-               std::max(std::sqrt(squares / std::max(good, 1e-9)), smallest_scale)};
+    mixture = {std::clamp(inliers / static_cast<double>(count), 0.05, 0.99),
+               std::max(std::sqrt(squares / std::max(inliers, 1e-9)), smallest_scale)};
   }
   take_logarithms(densities.data(), count);
   found.log_likelihood = std::accumulate(densities.begin(), densities.end(), 0.0);

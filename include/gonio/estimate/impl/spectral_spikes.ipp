@@ -24,8 +24,8 @@ struct spike_rule {
   Eigen::Index neighbours = 5;  ///< on each side of a wavelength
   double expected_number = 0.2, penalty = 3.0;
   double error_variance = 2.9;  ///< of a wrong value
-  /// The scale of the variances of right differences, relative to the process of the samples, before any sample, and
-  /// its weight as a number of samples.
+  /// The expected scale of the variances of right differences, relative to the samples' process, and its weight as a
+  /// number of samples.
   double scale = 0.01, known_before = 10.0;
   double noise = 0.01;  ///< of each value, relative to this value, and relative to the median of its spectrum
 };
@@ -52,7 +52,7 @@ class spike_search {
     }
   }
 
-  /// Replaces the worst value, then searches again, until no value is probably wrong.
+  /// Replaces the worst value, then searches again, until no value is probably wrong or a tenth is replaced.
   [[nodiscard]] std::vector<spectral_spike> replace_all() {
     std::vector<spectral_spike> found;
     while (std::ssize(found) < log_odds_.size() / 10) {
@@ -108,15 +108,15 @@ class spike_search {
   /// Returns the difference of a value minus its prediction from the same wavelength of all other samples.
   [[nodiscard]] double residual(Eigen::Index i, Eigen::Index c) const { return dual_(i, c) / inverse_(i, i); }
 
-  /// Compares two densities of a value: that of a wrong one and that of a right one. The scale of the right differences
-  /// is unknown, which makes both Student's t.
+  /// Compares two densities of a value: that of a wrong value and that of a right value. Both are Student's t, because
+  /// the scale of the right differences is unknown.
   void judge(Eigen::Index i, Eigen::Index c) {
     const double degrees = rule_.known_before + static_cast<double>(samples_.size() - 1),
                  others = std::max(squares_[c] - dual_(i, c) * residual(i, c), 0.0),
                  scale = (rule_.known_before * rule_.scale + std::min(others, usual_[c])) / degrees,
                  right = scale / inverse_(i, i) + variances_[i] + noise_variances_(i, c),
                  wrong = right + rule_.error_variance;
-    // A spike stands out from its own spectrum, too: not a slope that is steeper than those of the other samples.
+    // A spike also stands out from its own spectrum; a slope steeper than those of the other samples does not.
     const bool stands_out = residual(i, c) * outside_(i, c) > 0.0;
     const double off = stands_out ? std::min(std::abs(residual(i, c)), std::abs(outside_(i, c))) : 0.0,
                  square = off * off / degrees;
@@ -160,7 +160,7 @@ class spike_search {
   // how much a value is outside of the range of its neighbours, K^-1 y, and the logarithms of the odds that the values
   // are wrong.
   Eigen::MatrixXd differences_, noise_variances_, outside_, dual_, log_odds_;
-  // For each wavelength: y' K^-1 y, and its value by the median of the samples' residuals.
+  // For each wavelength: y' K^-1 y, and its estimate from the median of the samples' residuals.
   Eigen::VectorXd squares_, usual_;
   Eigen::VectorXd variances_;  ///< of each sample's differences
 };

@@ -70,9 +70,9 @@ namespace detail {
   return found;
 }
 
-/// A set of samples of which one property is wrong, and the logarithm of its probability up to a constant. The unknown
-/// scale of all variances makes the likelihood Student's t: if the model is poor, all samples disagree a little, and
-/// none is an outlier.
+/// A set of samples, one property of which is wrong, and the logarithm of the set's probability up to a constant. The
+/// unknown scale of all variances makes the likelihood Student's t: if the model is poor, all samples disagree a
+/// little, and none is an outlier.
 class wrong_sample_set {
  public:
   wrong_sample_set(std::shared_ptr<const Eigen::MatrixXd> covariance, const Eigen::MatrixXd& values,
@@ -165,7 +165,7 @@ class wrong_sample_set {
   [[nodiscard]] double count() const noexcept { return static_cast<double>(samples()); }
   [[nodiscard]] double columns() const noexcept { return static_cast<double>(dual_.cols()); }
   [[nodiscard]] double degrees() const noexcept { return property_.degrees + property_.degrees_per_sample * count(); }
-  /// Returns a sum of squares plus the one expected before any sample.
+  /// Adds the sum of squares that is expected before any sample.
   [[nodiscard]] double with_expected(double squares) const noexcept { return degrees() * property_.scale + squares; }
   [[nodiscard]] double prior_log_odds(Eigen::Index wrong) const {
     const auto k = static_cast<double>(wrong);
@@ -334,7 +334,7 @@ GONIO_INLINE judged_samples judge_samples(const sample_process& samples, const r
   const Eigen::VectorXd &brightness = found.brightness_->log_odds,
                         colour = found.colour_ ? found.colour_->log_odds : Eigen::VectorXd{};
   found.probabilities_ = detail::probability_of_either(brightness, colour);
-  // List the wrong samples, the most certain first. If there are too many, one half is the probability of the rest.
+  // List the wrong samples, the most certain first. If there are too many, set the probability of the rest to one half.
   std::vector<std::pair<double, Eigen::Index>> wrong;
   for (Eigen::Index i = 0; i < n; ++i)
     if (found.probabilities_[i] > 0.5)

@@ -35,32 +35,33 @@ namespace gonio::detail {
 }
 
 /// The location of a sample in the embedding space, and the sample's number in the set.
-using sample_place = std::pair<std::array<double, 4>, Eigen::Index>;
+using sample_location = std::pair<std::array<double, 4>, Eigen::Index>;
 
 /// Returns the samples of positive weight in a channel, sorted by location, so that repeats are adjacent.
-[[nodiscard]] GONIO_INLINE std::vector<sample_place> sorted_places(const sample_set& samples, Eigen::Index channel,
-                                                                   const pair_embedding& embedding) {
-  std::vector<sample_place> places;
+[[nodiscard]] GONIO_INLINE std::vector<sample_location> sorted_locations(const sample_set& samples,
+                                                                         Eigen::Index channel,
+                                                                         const pair_embedding& embedding) {
+  std::vector<sample_location> locations;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
-    if (samples[i].weight[channel] > 0.0) places.emplace_back(embedding(samples[i].angles()), i);
-  std::ranges::sort(places);
-  return places;
+    if (samples[i].weight[channel] > 0.0) locations.emplace_back(embedding(samples[i].angles()), i);
+  std::ranges::sort(locations);
+  return locations;
 }
 
 }  // namespace gonio::detail
 
 namespace gonio {
 
-/// The samples of positive weight, as points of a search tree. The tree reads the points in place, so this cannot be
-/// moved.
+/// The samples of positive weight, as points of a search tree. The tree reads the points in place, so the samples
+/// cannot be moved.
 struct scattered_brdf::embedded_samples {
-  /// `places` must not be empty.
-  embedded_samples(const sample_set& samples, const std::vector<detail::sample_place>& places, Eigen::Index channel,
-                   interpolation_domain domain)
-      : points(4, std::ssize(places)),
-        values(Eigen::Array3Xd::Zero(3, std::ssize(places))),
-        weights(Eigen::VectorXd::Zero(std::ssize(places))),
-        tree(merge(samples, places, channel, domain)) {}
+  /// `locations` must not be empty.
+  embedded_samples(const sample_set& samples, const std::vector<detail::sample_location>& locations,
+                   Eigen::Index channel, interpolation_domain domain)
+      : points(4, std::ssize(locations)),
+        values(Eigen::Array3Xd::Zero(3, std::ssize(locations))),
+        weights(Eigen::VectorXd::Zero(std::ssize(locations))),
+        tree(merge(samples, locations, channel, domain)) {}
 
   Eigen::Matrix4Xd points;
   Eigen::Array3Xd values;  ///< in the domain of the interpolation
@@ -68,15 +69,15 @@ struct scattered_brdf::embedded_samples {
   k_d_tree<4> tree;
 
  private:
-  /// Merges measurements of the same location into one point. It has the weighted mean of their reflectances, so that
-  /// noise cancels.
-  const Eigen::Matrix4Xd& merge(const sample_set& samples, const std::vector<detail::sample_place>& places,
+  /// Merges measurements of the same location into one point. The point has the weighted mean of their reflectances, so
+  /// that noise cancels.
+  const Eigen::Matrix4Xd& merge(const sample_set& samples, const std::vector<detail::sample_location>& locations,
                                 Eigen::Index channel, interpolation_domain domain) {
     Eigen::Index merged = 0;
-    for (Eigen::Index i = 0; i < std::ssize(places); ++i) {
-      const auto& [place, number] = places[i];
-      if (i > 0 && place != places[i - 1].first) ++merged;
-      std::ranges::copy(place, points.col(merged).data());
+    for (Eigen::Index i = 0; i < std::ssize(locations); ++i) {
+      const auto& [point, number] = locations[i];
+      if (i > 0 && point != locations[i - 1].first) ++merged;
+      std::ranges::copy(point, points.col(merged).data());
       values.col(merged) += samples[number].weight[channel] * samples[number].value;
       weights[merged] += samples[number].weight[channel];
     }
@@ -91,11 +92,11 @@ struct scattered_brdf::embedded_samples {
 };
 
 GONIO_INLINE rgb scattered_brdf::mean_of_neighbours(const embedded_samples& of,
-                                                    const std::array<double, 4>& place) const noexcept {
+                                                    const std::array<double, 4>& at) const noexcept {
   // Find one neighbour more than the mean uses: weights vanish at its distance.
   std::array<std::uint32_t, scattered_options::most_neighbours + 1> numbers;
   std::array<double, scattered_options::most_neighbours + 1> distances;
-  const Eigen::Index found = of.tree.nearest(place.data(), options_.neighbours + 1, numbers.data(), distances.data()),
+  const Eigen::Index found = of.tree.nearest(at.data(), options_.neighbours + 1, numbers.data(), distances.data()),
                      count = std::min(found, options_.neighbours);
   // Replace distances that are rounding errors by a small distance. Let weights vanish slightly farther out than the
   // next neighbour; otherwise, if all neighbours are equally near, their weights would be rounding errors.
@@ -122,11 +123,11 @@ GONIO_INLINE rgb scattered_brdf::mean_of_neighbours(const embedded_samples& of,
 GONIO_INLINE rgb scattered_brdf::operator()(const direction& wi, const direction& wo) const noexcept {
   if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
   const bool ordered = detail::is_ordered(wi, wo);
-  const std::array<double, 4> place =
+  const std::array<double, 4> at =
       options_.embedding(ordered ? to_half_difference(wi, wo) : to_half_difference(wo, wi));
-  if (channels_.size() == 1) return mean_of_neighbours(*channels_.front(), place);
+  if (channels_.size() == 1) return mean_of_neighbours(*channels_.front(), at);
   rgb value;
-  for (Eigen::Index c = 0; c < 3; ++c) value[c] = mean_of_neighbours(*channels_[c], place)[c];
+  for (Eigen::Index c = 0; c < 3; ++c) value[c] = mean_of_neighbours(*channels_[c], at)[c];
   return value;
 }
 
@@ -135,11 +136,12 @@ GONIO_INLINE scattered_brdf scattered_interpolation::fit(const sample_set& sampl
   scattered_brdf fitted(options_);
   const Eigen::Index channels = weigh_channels_apart(samples) ? 3 : 1;
   for (Eigen::Index channel = 0; channel < channels; ++channel) {
-    const std::vector<detail::sample_place> places = detail::sorted_places(samples, channel, options_.embedding);
-    if (places.empty())
+    const std::vector<detail::sample_location> locations =
+        detail::sorted_locations(samples, channel, options_.embedding);
+    if (locations.empty())
       refuse(channels == 1 ? "all samples have weight zero" : "all samples have weight zero in one of the channels");
     fitted.channels_.push_back(
-        std::make_shared<const scattered_brdf::embedded_samples>(samples, places, channel, options_.domain));
+        std::make_shared<const scattered_brdf::embedded_samples>(samples, locations, channel, options_.domain));
   }
   return fitted;
 }

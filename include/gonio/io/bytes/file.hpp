@@ -120,7 +120,7 @@ enum class staging {
 class file_writer {
  public:
   /// Opens a temporary file in the target's folder. Removes the temporary files that killed processes left there,
-  /// except on Windows. Prefer `write_atomically`, which does not forget to commit.
+  /// except on Windows. Prefer `write_atomically`, which commits by itself.
   explicit file_writer(const std::filesystem::path& path, staging held = staging::unnamed);
   file_writer(const file_writer&) = delete;
   file_writer& operator=(const file_writer&) = delete;
@@ -160,8 +160,8 @@ class file_writer {
   mode_t old_mode_ = 0;
 };
 
-/// Removes this process's named temporary files (not on Windows); committing them then fails. For the handler of a
-/// signal that ends the process: takes no lock and allocates no memory.
+/// Removes this process's named temporary files (not on Windows); committing them then fails. The handler of a signal
+/// that ends the process may call it: takes no lock and allocates no memory.
 void remove_unfinished_files() noexcept;
 
 /// Calls `fill(file_writer&)` and then replaces the file. If anything fails, the callback included, the old file stays

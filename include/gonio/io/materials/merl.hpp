@@ -3,7 +3,7 @@
 /// phi_d), then a plane of float64 for red, green and blue; a value times 1/1500, 1.15/1500 or 1.66/1500 is in sr^-1.
 /// Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 ///
-/// A file does not tell at which point of a cell its value was taken. `infer_convention` infers the point from the
+/// A file does not state at which point of a cell its value was taken. `infer_convention` infers the point from the
 /// cells without a value, which are -1 in all three channels.
 
 #include <gonio/core/brdf.hpp>

@@ -78,8 +78,8 @@ struct rgl_material {
 /// Writes a file beside its target and renames it.
 void write_rgl(const std::filesystem::path& path, const rgl_material& material);
 
-/// Writes any isotropic BRDF in RGB, or an `adaptive_brdf`. The latter has the file's tables; for any other
-/// BRDF, `tabulate_keeping_albedo` makes them.
+/// Writes an `adaptive_brdf`, which has the file's tables, or any isotropic BRDF in RGB, for which
+/// `tabulate_keeping_albedo` makes them.
 template <brdf Brdf>
 void write_rgl(const std::filesystem::path& path, const Brdf& f, const std::string& description = "gonio") {
   if constexpr (std::same_as<Brdf, model::adaptive_brdf>)

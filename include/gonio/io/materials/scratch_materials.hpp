@@ -27,8 +27,8 @@ class scratch_materials {
   /// Appends a row of values for each cell, at some wavelengths or, if there are none, in RGB.
   void append(const std::string& name, const valid_cells& cells, std::vector<double> wavelengths, cell_matrix values);
 
-  /// Returns all appended materials. Append none afterwards: they share tables and file with this object. Throws
-  /// gonio::error if there is none; reading them throws if the file cannot be read.
+  /// Returns all appended materials, which share tables and file with this object: append none afterwards. Throws
+  /// gonio::error if there is none; reading the materials throws if the file cannot be read.
   [[nodiscard]] material_rows rows();
 
   /// Returns the size of the scratch file in bytes: 0 while all tables are in memory.

@@ -73,7 +73,7 @@ class svbrdf_writer {
   /// Returns the number of bands already written, by this process or an earlier one.
   [[nodiscard]] Eigen::Index finished() const noexcept { return finished_; }
 
-  /// Are these the bytes of a finished band? Checks that a resumed job has the images that it started with.
+  /// Are these the bytes of a finished band? If not, a resumed job has other images than it started with.
   [[nodiscard]] bool has_written(Eigen::Index band, std::span<const std::byte> bytes) const;
 
   /// Appends the next band. Throws gonio::error if it cannot be stored, for example on a full disk: earlier bands stay.

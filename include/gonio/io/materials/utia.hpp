@@ -29,9 +29,9 @@ struct utia_directions {
   [[nodiscard]] Eigen::Index size() const noexcept { return polar * azimuths * polar * azimuths; }
 };
 
-/// Reads a material from the bytes of a file. Errors call it `name`. Values are linear in each angle, and beyond the
-/// last polar angle on a straight line through the last two, as in the database's own program. Throws gonio::error if
-/// the size does not match the directions, and for values that are not finite.
+/// Reads a material from the bytes of a file. Errors call the file `name`. Values are linear in each angle. Above the
+/// last polar angle, they continue the line through the last two, as in the database's own program. Throws gonio::error
+/// if the size does not match the directions, and for values that are not finite.
 [[nodiscard]] model::angle_grid_brdf read_utia(std::span<const std::byte> bytes, const std::string& name,
                                                const utia_directions& directions = {});
 

@@ -23,7 +23,7 @@ namespace detail {
 /// Reads a file line by line.
 class cornell_reader {
  public:
-  explicit cornell_reader(text_place& place) : place_(place) {}
+  explicit cornell_reader(text_position& position) : position_(position) {}
 
   void read(std::string_view line);
 
@@ -32,7 +32,7 @@ class cornell_reader {
 
  private:
   [[nodiscard]] double number(std::size_t field) const {
-    return read_number(fields_[field], place_, [&] { return "field " + std::to_string(field + 1); });
+    return read_number(fields_[field], position_, [&] { return "field " + std::to_string(field + 1); });
   }
 
   void read_count();
@@ -44,7 +44,7 @@ class cornell_reader {
   /// Reads a direction from a polar angle in this field and an azimuth in the next.
   [[nodiscard]] direction read_direction(std::size_t field) const;
 
-  text_place& place_;
+  text_position& position_;
   std::size_t count_ = 0;
   std::vector<double> wavelengths_, reflectances_;
   std::vector<std::string_view> fields_;

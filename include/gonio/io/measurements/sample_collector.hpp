@@ -18,18 +18,18 @@
 namespace gonio::io::detail {
 
 /// Throws gonio::error if the reflectance is outside the range of float.
-void require_float_range(double reflectance, const text_place& place);
+void require_float_range(double reflectance, const text_position& position);
 
 /// Returns the number. Throws gonio::error with its name unless it is from `lowest` to `highest`.
 [[nodiscard]] double require_between(double number, std::string_view name, double lowest, double highest,
-                                     const text_place& place);
+                                     const text_position& position);
 
 /// Is the direction above the horizon by more than the rounding of angles? Tables extend to 90 degrees, where nothing
 /// can be measured, and tables about the specular direction extend below the horizon.
 [[nodiscard]] inline bool is_above_horizon(const direction& w) noexcept { return w.z() > 1e-6; }
 
-/// Returns the half angle of a receiver of a given solid angle in steradians. Throws gonio::error at the position of
-/// `read` if it exceeds the largest half angle.
+/// Returns the half angle of a receiver of a given solid angle in steradians. Throws gonio::error naming the line of
+/// `read` if the half angle is not from 0 to the largest one.
 [[nodiscard]] double receiver_half_angle(double solid_angle, const json_reader& read);
 
 /// Returns for each azimuth whether it differs, modulo 360 degrees, from all azimuths before it. O(n log n) for n
@@ -46,8 +46,8 @@ class sample_collector {
   /// Returns the number of values of a sample.
   [[nodiscard]] std::size_t channel_count() const noexcept { return static_cast<std::size_t>(kinds_.size()); }
 
-  /// Sets the wavelengths of the following samples, in nanometres. If they differ from those before, all samples become
-  /// colours. Throws gonio::error unless they ascend.
+  /// Sets the wavelengths of the following samples, in nanometres. If they differ from the earlier ones, all samples
+  /// become colours. Throws gonio::error unless they ascend.
   void use_wavelengths(std::span<const double> wavelengths);
 
   /// Sets the cones of source and receiver for all samples.

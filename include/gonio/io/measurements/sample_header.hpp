@@ -82,22 +82,22 @@ class sample_header {
   [[nodiscard]] std::string note_of_ignored() const;
 
  private:
-  void add(const written_column& written, const sample_reading& reading, const text_place& place);
-  [[nodiscard]] bool add_known(const written_column& written, const known_name& known, const text_place& place);
-  [[nodiscard]] bool add_wavelength(const written_column& written, const text_place& place);
-  void require_named(const sample_reading& reading, const text_place& place) const;
-  void read_matrix(const std::vector<written_column>& names, const text_place& place);
+  void add(const written_column& written, const sample_reading& reading, const text_position& position);
+  [[nodiscard]] bool add_known(const written_column& written, const known_name& known, const text_position& position);
+  [[nodiscard]] bool add_wavelength(const written_column& written, const text_position& position);
+  void require_named(const sample_reading& reading, const text_position& position) const;
+  void read_matrix(const std::vector<written_column>& names, const text_position& position);
   void find_stated(std::span<const stated_angle> stated);
-  void find_directions(const text_place& place);
-  void find_values(bool needs_value, const text_place& place);
-  void take_r_for_value(const text_place& place);
+  void find_directions(const text_position& position);
+  void find_values(bool needs_value, const text_position& position);
+  void use_r_as_value(const text_position& position);
   void ignore_tristimulus(const std::vector<written_column>& names);
-  void find_weights(const text_place& place);
+  void find_weights(const text_position& position);
   [[nodiscard]] bool has(std::size_t column) const { return has_any({column, 1}); }
   [[nodiscard]] bool knows(std::size_t column) const;
   [[nodiscard]] bool has_any(const column_group& group) const;
-  void require(const column_group& group, const text_place& place) const;
-  [[noreturn]] void refuse_missing(std::size_t column, const text_place& place) const;
+  void require(const column_group& group, const text_position& position) const;
+  [[noreturn]] void refuse_missing(std::size_t column, const text_position& position) const;
   [[nodiscard]] std::string as_it_looks() const;
 
   csv_dialect dialect_;

@@ -35,11 +35,11 @@ namespace detail {
 class stated_quantity {
  public:
   /// States a quantity; `by` is its source in messages. Throws gonio::error if another quantity has been stated.
-  void state(sample_quantity quantity, const std::string& by, const text_place& place);
+  void state(sample_quantity quantity, const std::string& by, const text_position& position);
   /// States that each number, or the unit of its column, has a percent sign.
-  void state_percent_signs(const std::string& by, const text_place& place);
+  void state_percent_signs(const std::string& by, const text_position& position);
   /// Takes over the statement of another object, as if it were stated here.
-  void state(const stated_quantity& other, const text_place& place);
+  void state(const stated_quantity& other, const text_position& position);
 
   [[nodiscard]] const std::optional<sample_quantity>& quantity() const noexcept { return quantity_; }
 

@@ -23,13 +23,13 @@ namespace gonio::io::detail {
 using sample_row = std::vector<double>;
 
 /// The numbers of a line or of a matrix's cell, and how to read them.
-struct parsed_row {
+struct row_view {
   const sample_row& numbers;
   const column_group& group;  ///< the columns of the directions
   const column_group& values;
   const column_group& weights;
   std::optional<sample_quantity> quantity;
-  const text_place& place;
+  const text_position& position;
   const sample_header& header;
 
   [[nodiscard]] bool has_half_difference() const noexcept { return group.first == half_difference_group.first; }
@@ -55,8 +55,8 @@ class sample_rows {
   /// Throws gonio::error if more than half of the lines have no value.
   void require_values() const;
 
-  [[nodiscard]] parsed_row row() const noexcept {
-    return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), csv_.place(),
+  [[nodiscard]] row_view row() const noexcept {
+    return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), csv_.position(),
             header_};
   }
   [[nodiscard]] const sample_header& header() const noexcept { return header_; }

@@ -47,7 +47,7 @@ struct recorded_scan {
 
 namespace detail {
 
-/// Returns a line's fields followed by the CRC-32 of their text, which a truncated or damaged line does not match.
+/// Returns a line's fields followed by the CRC-32 of their text, to detect a truncated or damaged line.
 [[nodiscard]] std::string with_checksum(std::string fields);
 
 [[nodiscard]] bool has_checksum(std::string_view line);
@@ -64,7 +64,7 @@ namespace detail {
 /// Reads the numbers of a line one after the other.
 class number_reader {
  public:
-  number_reader(const text_rule& rule, const text_place& place) : rule_(rule), place_(place) {}
+  number_reader(const text_rule& rule, const text_position& position) : rule_(rule), position_(position) {}
 
   double next();
   std::size_t next_whole(double most, const std::string& what);
@@ -72,15 +72,15 @@ class number_reader {
 
  private:
   const text_rule& rule_;
-  const text_place& place_;
+  const text_position& position_;
   std::size_t used_ = 0;
 };
 
 [[nodiscard]] capture::reading read_reading(number_reader& numbers, std::uint16_t largest_count,
-                                            const text_place& place);
+                                            const text_position& position);
 
 /// Reads a pose of the plan (`numbers` is 6), or one added later (7: the last is a checksum).
-[[nodiscard]] direction_pair read_pose(const text_rule& rule, std::size_t numbers, const text_place& place);
+[[nodiscard]] direction_pair read_pose(const text_rule& rule, std::size_t numbers, const text_position& position);
 
 /// The content of the lines read so far.
 struct scan_lines {
@@ -91,18 +91,19 @@ struct scan_lines {
 };
 
 /// Reads a line of the subject: a name, a number and, except for the seed, a text. Returns false for any other line.
-[[nodiscard]] bool apply_subject_line(std::string_view line, const text_place& place, scan_lines& before);
-void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan, scan_lines& before);
+[[nodiscard]] bool apply_subject_line(std::string_view line, const text_position& position, scan_lines& before);
+void apply_scan_line(std::string_view line, const text_position& position, recorded_scan& scan, scan_lines& before);
 /// Checks the header lines when all lines have been read, and completes the scan.
 void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name);
 
-/// Returns the text without an incomplete last line, which a killed process or a power failure may leave.
+/// Returns the text without a last line that is incomplete or has a wrong checksum: a killed process or a power failure
+/// may leave one.
 [[nodiscard]] std::string_view whole_lines(std::string_view text);
 
 }  // namespace detail
 
-/// Reads a scan, complete or not, from the text of its file; ignores an incomplete last line. Throws gonio::error
-/// naming a line that is damaged or invalid. Errors call the file `name`.
+/// Reads a scan, complete or not, from the text of its file; ignores a last line that is incomplete or has a wrong
+/// checksum. Throws gonio::error naming any other line that is damaged or invalid. Errors call the file `name`.
 [[nodiscard]] recorded_scan read_scan(std::string_view text, const std::string& name);
 
 /// Reads a scan's file.

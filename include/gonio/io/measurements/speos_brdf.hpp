@@ -21,7 +21,7 @@ namespace gonio::io {
 /// proportional to the BRDF, or to the BRDF times the viewer's cosine. The reflectance in percent scales a table: it is
 /// the integral of the BRDF times the cosine over the table's directions. Azimuth 0 is the side of the mirror
 /// direction. The spectrum of an anisotropic file belongs to one angle of incidence and scales all tables; azimuths
-/// count from the file's anisotropy vector. Throws gonio::error naming the faulty line, for binary files, for
+/// are counted from the file's anisotropy vector. Throws gonio::error naming the faulty line, for binary files, for
 /// transmission, and if the directions differ between wavelengths. Errors call the file `name`.
 [[nodiscard]] sample_set read_speos_brdf(std::string_view text, const std::string& name);
 

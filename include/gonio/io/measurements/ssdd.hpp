@@ -23,7 +23,7 @@ namespace detail {
 /// Reads a file block by block.
 class ssdd_reader {
  public:
-  ssdd_reader(std::string_view text, text_place& place) : words_(text, place) {}
+  ssdd_reader(std::string_view text, text_position& position) : words_(text, position) {}
 
   [[nodiscard]] sample_collector read();
 

@@ -24,11 +24,11 @@ namespace detail {
 /// Reads a file word by word.
 class zemax_bsdf_reader {
  public:
-  zemax_bsdf_reader(std::string_view text, text_place& place) : words_(text, place) {}
+  zemax_bsdf_reader(std::string_view text, text_position& position) : words_(text, position) {}
 
   /// Returns the samples.
   [[nodiscard]] sample_set read();
-  /// Returns all nodes; an azimuth or rotation that occurs twice (0 and 360) is there once.
+  /// Returns all nodes; an azimuth or rotation that occurs twice (0 and 360) is returned once.
   [[nodiscard]] model::angle_grid read_grid();
 
  private:

@@ -15,11 +15,11 @@
 
 namespace gonio::io {
 
-/// Reads the text of such a file. Errors call it `name`. Throws gonio::error like `read_zemax_bsdf`, and for angles
+/// Reads the text of a file. Errors call the file `name`. Throws gonio::error like `read_zemax_bsdf`, and for angles
 /// that do not ascend.
 [[nodiscard]] model::angle_grid_brdf read_zemax_table(std::string_view text, const std::string& name);
 
-/// Reads such a file.
+/// Reads a file.
 [[nodiscard]] model::angle_grid_brdf read_zemax_table(const std::filesystem::path& path);
 
 /// The angles of a written file: radial angles up to 175 degrees, denser towards the specular direction.
@@ -39,7 +39,7 @@ struct zemax_resolution {
 /// the horizon are 0. Throws gonio::error for a grid that is not about the specular direction.
 [[nodiscard]] std::string write_zemax_table(const model::angle_grid& grid, const std::string& comment = "gonio");
 
-/// Tabulates a BRDF. Without rotations it is the mean of both sides of the plane of incidence. The bytes do not depend
+/// Tabulates a BRDF. If there is one rotation, averages both sides of the plane of incidence. The values do not depend
 /// on the number of threads.
 template <brdf Brdf>
 [[nodiscard]] model::angle_grid tabulate_about_specular(const Brdf& f, const zemax_resolution& resolution = {},

@@ -28,9 +28,10 @@ namespace gonio::io {
 namespace detail {
 
 /// Reads a range of polar angles from the rule's numbers `first` and `first` + 1, in degrees.
-[[nodiscard]] design::polar_range read_polar_range(const text_rule& rule, std::size_t first, const text_place& place);
+[[nodiscard]] design::polar_range read_polar_range(const text_rule& rule, std::size_t first,
+                                                   const text_position& position);
 
-void apply_rule(const text_rule& rule, design::apparatus& described, const text_place& place);
+void apply_rule(const text_rule& rule, design::apparatus& described, const text_position& position);
 
 }  // namespace detail
 

@@ -77,7 +77,7 @@ class setup_text {
   [[nodiscard]] std::size_t count(std::string_view name, std::size_t which, std::size_t smallest) const;
 
   [[noreturn]] void refuse(std::string_view name, const std::string& what) const {
-    at(name).place.refuse(in_quotes(name) + ": " + what);
+    at(name).position.refuse(in_quotes(name) + ": " + what);
   }
 
   /// Throws gonio::error if the file has none of these entries.
@@ -100,20 +100,20 @@ class setup_text {
   }
 
  private:
-  struct placed_rule {
+  struct stated_rule {
     text_rule rule;
-    text_place place;
+    text_position position;
   };
 
-  void add(text_rule rule, const text_place& place);
+  void add(text_rule rule, const text_position& position);
 
-  [[nodiscard]] const placed_rule* find(std::string_view name) const;
+  [[nodiscard]] const stated_rule* find(std::string_view name) const;
 
-  [[nodiscard]] const placed_rule& at(std::string_view name) const;
+  [[nodiscard]] const stated_rule& at(std::string_view name) const;
 
   std::string name_;
   std::span<const setup_entry> known_;
-  std::vector<placed_rule> rules_;
+  std::vector<stated_rule> rules_;
 };
 
 /// Returns the camera and its lens. With a calibration the file must give neither size nor lens.

@@ -6,7 +6,7 @@
 /// if (csv.next()) use_header(csv.fields());
 /// while (csv.next())
 ///   for (const std::string_view field : csv.fields())
-///     if (const char* wrong = csv.read_number(field, number)) csv.place().refuse({in_quotes(field), wrong});
+///     if (const char* wrong = csv.read_number(field, number)) csv.position().refuse({in_quotes(field), wrong});
 /// ```
 
 #include <gonio/io/text/csv_dialect.hpp>
@@ -35,8 +35,8 @@ class csv_reader {
   /// Moves to the next line if it has as many fields as the header line and `is_it` returns true for them.
   [[nodiscard]] bool next_if(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
 
-  /// Searches the first 1,000 lines for the header line: the first line for whose fields `is_it` returns true. If there
-  /// is one, next() passes over the lines above it, except comments; otherwise returns false.
+  /// Searches the first 1,000 lines for the header line: the first line whose fields satisfy `is_it`. Returns false if
+  /// there is none. Otherwise next() passes over the lines above it, except comments.
   bool find_header(const std::function<bool(const std::vector<std::string_view>&)>& is_it);
 
   /// Returns the lines above the header line that were passed over.
@@ -45,8 +45,8 @@ class csv_reader {
   /// Returns the line's fields, trimmed and without quotes.
   [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
 
-  /// Reads a finite number in the file's dialect; the first decimal mark sets the dialect's. Returns the field's fault,
-  /// or nullptr.
+  /// Reads a finite number in the file's dialect. The first decimal mark sets `dialect().decimal_mark`. Returns the
+  /// field's fault, or nullptr.
   [[nodiscard]] const char* read_number(std::string_view field, double& value) {
     // Fast path: nearly all numbers are plain with a decimal point.
     if (dialect_.decimal_mark == '.' && io::read_number(field, value) == nullptr) return nullptr;
@@ -54,7 +54,7 @@ class csv_reader {
   }
 
   [[nodiscard]] const csv_dialect& dialect() const noexcept { return dialect_; }
-  [[nodiscard]] const text_place& place() const noexcept { return place_; }
+  [[nodiscard]] const text_position& position() const noexcept { return position_; }
 
  private:
   void read_separator();
@@ -64,7 +64,7 @@ class csv_reader {
 
   std::shared_ptr<const std::string> converted_;  ///< the text in UTF-8 if the file was UTF-16
   std::string_view left_;
-  text_place place_;
+  text_position position_;
   csv_dialect dialect_;
   std::vector<std::string_view> fields_;
   char separator_ = '\0';        ///< set by a first line `sep=;`, or 0

@@ -2,7 +2,7 @@
 /// JSON texts (RFC 8259), read forwards: the caller reads the values that it wants and skips the others. Builds no tree
 /// of values and allocates only the strings that are read.
 /// ```
-/// json_reader json(text, place);
+/// json_reader json(text, position);
 /// json.open_object("file");
 /// while (const auto key = json.next_key())
 ///   if (*key == "angle") angle = json.read_number("angle"); else json.skip();
@@ -22,7 +22,8 @@ namespace gonio::io::detail {
 
 class json_reader {
  public:
-  json_reader(std::string_view text, text_place& place) : text_(without_byte_order_mark(text)), place_(place) {}
+  json_reader(std::string_view text, text_position& position)
+      : text_(without_byte_order_mark(text)), position_(position) {}
 
   /// Enters an object. Errors call the object `what`.
   void open_object(std::string_view what) { open('{', "an object", what); }
@@ -62,7 +63,7 @@ class json_reader {
   [[nodiscard]] std::string_view read_literal();
 
   std::string_view text_;
-  text_place& place_;
+  text_position& position_;
   std::size_t at_ = 0;
   bool is_first_ = false;  ///< nothing has been read from the innermost object or array yet
 };

@@ -17,10 +17,10 @@ struct text_rule {
   std::vector<double> numbers;
 };
 
-[[nodiscard]] text_rule read_rule(std::string_view line, const text_place& place);
+[[nodiscard]] text_rule read_rule(std::string_view line, const text_position& position);
 
 /// Throws gonio::error unless the rule has one of these counts of numbers.
-void require_numbers(const text_rule& rule, std::initializer_list<std::size_t> counts, const text_place& place);
+void require_numbers(const text_rule& rule, std::initializer_list<std::size_t> counts, const text_position& position);
 
 }  // namespace gonio::io::detail
 

@@ -15,7 +15,7 @@
 namespace gonio::io {
 
 /// A reader's position, for its errors: file and line.
-struct text_place {
+struct text_position {
   std::string name;
   std::size_t line = 0;
 
@@ -46,18 +46,18 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields, 
 /// Splits a line at blanks into words, which replace the content of `words`.
 void split_at_blanks(std::string_view line, std::vector<std::string_view>& words);
 
-/// Takes the next line that is not blank from the front of a text and moves `place` there. Returns false at the end.
-[[nodiscard]] bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line);
+/// Takes the next line that is not blank from the front of a text and moves `position` to it. Returns false at the end.
+[[nodiscard]] bool next_whole_line(std::string_view& text, text_position& position, std::string_view& line);
 
-/// Takes the next line that is neither blank nor a comment (#) from the front of a text, trims it, and moves `place`
-/// there. Returns false at the end.
-[[nodiscard]] bool next_line(std::string_view& text, text_place& place, std::string_view& line);
+/// Takes the next line that is neither blank nor a comment (#) from the front of a text, trims it, and moves `position`
+/// to it. Returns false at the end.
+[[nodiscard]] bool next_line(std::string_view& text, text_position& position, std::string_view& line);
 
-/// Calls `use(line)` with each trimmed line that is neither blank nor a comment (#); `place` is then at the line.
+/// Calls `use(line)` with each trimmed line that is neither blank nor a comment (#), after moving `position` to it.
 template <class Use>
-void for_each_line(std::string_view text, text_place& place, Use&& use) {
+void for_each_line(std::string_view text, text_position& position, Use&& use) {
   text = without_byte_order_mark(text);
-  for (std::string_view line; next_line(text, place, line);) use(line);
+  for (std::string_view line; next_line(text, position, line);) use(line);
 }
 
 /// std::from_chars of a whole field, for standard libraries without the floating-point version (libc++ before 20).
@@ -66,11 +66,11 @@ void for_each_line(std::string_view text, text_place& place, Use&& use) {
 /// Reads a finite number. Returns the fault of the field, or nullptr.
 [[nodiscard]] const char* read_number(std::string_view field, double& value);
 
-/// Reads a finite number. Throws gonio::error at `place`, with `describe()` as the number's name.
+/// Reads a finite number. Throws gonio::error naming `position`, with `describe()` as the number's name.
 template <class Describe>
-[[nodiscard]] double read_number(std::string_view field, const text_place& place, const Describe& describe) {
+[[nodiscard]] double read_number(std::string_view field, const text_position& position, const Describe& describe) {
   double value = 0.0;
-  if (const char* wrong = read_number(field, value)) place.refuse({describe(), ": ", in_quotes(field), wrong});
+  if (const char* wrong = read_number(field, value)) position.refuse({describe(), ": ", in_quotes(field), wrong});
   return value;
 }
 

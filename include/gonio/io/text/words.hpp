@@ -11,10 +11,11 @@
 
 namespace gonio::io::detail {
 
-/// Reads the words of a text one after the other; `place` is the position of the last word.
+/// Reads the words of a text one after the other and moves `position` to the last word's line.
 class word_reader {
  public:
-  word_reader(std::string_view text, text_place& place) : text_(without_byte_order_mark(text)), place_(place) {}
+  word_reader(std::string_view text, text_position& position)
+      : text_(without_byte_order_mark(text)), position_(position) {}
 
   /// Returns the next word without reading it; empty at the end.
   [[nodiscard]] std::string_view peek();
@@ -45,7 +46,7 @@ class word_reader {
   /// Reads `count` times `of_each` bytes of any value, from the beginning of the line after the last word read.
   [[nodiscard]] std::string_view read_bytes(std::size_t count, std::size_t of_each);
 
-  [[nodiscard]] text_place& place() const noexcept { return place_; }
+  [[nodiscard]] text_position& position() const noexcept { return position_; }
 
  private:
   [[nodiscard]] bool is_at_end_of_line() const noexcept {
@@ -53,7 +54,7 @@ class word_reader {
   }
 
   std::string_view text_, line_;
-  text_place& place_;
+  text_position& position_;
 };
 
 }  // namespace gonio::io::detail

@@ -30,7 +30,7 @@ class xml_element {
   /// Returns the text between this element's tags.
   [[nodiscard]] std::string_view content() const noexcept { return content_; }
   /// Returns the position of a part of the file.
-  [[nodiscard]] text_place place(std::string_view part) const {
+  [[nodiscard]] text_position position(std::string_view part) const {
     return {name_, 1 + static_cast<std::size_t>(std::count(file_.data(), part.data(), '\n'))};
   }
 

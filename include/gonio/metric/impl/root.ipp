@@ -3,7 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/metric/place_free.hpp>
+#include <gonio/metric/location_free.hpp>
 #include <gonio/metric/root.hpp>
 
 #include <algorithm>

@@ -21,8 +21,7 @@ namespace gonio::model::detail {
 /// Whether a table may have negative numbers.
 enum class table_sign { any, not_negative };
 
-/// Throws gonio::error unless `part` has this many tables, all numbers are finite, and no number is negative that must
-/// not be.
+/// Throws gonio::error unless `part` has this many tables, all numbers are finite, and their signs are allowed.
 inline void require_tables(const unit_square_tables& part, const char* name, Eigen::Index tables, table_sign sign) {
   if (part.tables != tables || part.rows < 2 || part.columns < 2 ||
       std::ssize(part.values) != part.tables * part.rows * part.columns)
@@ -81,17 +80,17 @@ struct adaptive_brdf::stored {
         visible(parts.visible_normals),
         reflectance(parts.reflectance) {}
 
-  /// Where to look up a half vector of any length: the light's polar angle, and the half vector's coordinates in the
-  /// tables.
-  struct place {
+  /// The location of a half vector of any length in the tables: the light's polar angle, and the half vector's
+  /// coordinates.
+  struct table_location {
     double theta_i;  ///< polar angle of wi in quarter turns
     detail::square_point half;
 
-    place(const direction& wi, const direction& sum, double along) noexcept
+    table_location(const direction& wi, const direction& sum, double along) noexcept
         : theta_i(detail::within_unit(detail::polar_quarter_turn(wi))), half{detail::relative_turn(sum, wi), along} {}
   };
 
-  /// Where to look up the reflectance (neighbouring angles of the light, position in their tables), and the factor by
+  /// The location of the reflectance (neighbouring angles of the light, position in their tables), and the factor by
   /// which to multiply it.
   struct mapped {
     detail::between_neighbours light;
@@ -99,7 +98,7 @@ struct adaptive_brdf::stored {
     double factor;
   };
 
-  [[nodiscard]] mapped map(const place& at, double cos_theta_o) const noexcept {
+  [[nodiscard]] mapped map(const table_location& at, double cos_theta_o) const noexcept {
     const detail::between_neighbours neighbours = light.find(at.theta_i);
     const double divisor = 4.0 * cos_theta_o * area.value({0.5, std::sqrt(at.theta_i)});
     return {neighbours, visible.position(at.half, neighbours), divisor > 0.0 ? normals.value(at.half) / divisor : 0.0};
@@ -155,7 +154,7 @@ GONIO_INLINE rgb adaptive_brdf::operator()(const direction& wi, const direction&
   if (tables.symmetry != 0) return 0.5 * (tables.turned_value(wi, wo, along) + tables.turned_value(wo, wi, along));
   // Interleave the steps for (wi, wo) and (wo, wi), so that the processor computes one value while it waits for the
   // other.
-  const stored::place first(wi, sum, along), second(wo, sum, along);
+  const stored::table_location first(wi, sum, along), second(wo, sum, along);
   const stored::mapped one = tables.map(first, wo.z()), other = tables.map(second, wi.z());
   return 0.5 * (tables.value(one) + tables.value(other));
 }
@@ -165,7 +164,7 @@ GONIO_INLINE rgb adaptive_brdf::as_measured(const direction& wi, const direction
   const direction sum = wi + wo;
   const double along = detail::polar_coordinate(sum);
   if (tables_->symmetry != 0) return tables_->turned_value(wi, wo, along);
-  return tables_->value(tables_->map(stored::place(wi, sum, along), wo.z()));
+  return tables_->value(tables_->map(stored::table_location(wi, sum, along), wo.z()));
 }
 
 }  // namespace gonio::model

@@ -237,7 +237,8 @@ class visible_lookup {
  private:
   using four = std::array<double, 4>;
 
-  /// Returns a row's integral and the integral of all rows before it, and the same of the next row, between two tables.
+  /// Returns, interpolated between two tables: a row's integral, the integral of all rows before it, and both for the
+  /// next row.
   [[nodiscard]] four mixed_row_sums(Eigen::Index row, const between_neighbours& light,
                                     Eigen::Index first_table) const noexcept {
     const float* near = row_sums_.data() + (first_table + light.first) * row_sums_per_table_ + 2 * row;
@@ -266,7 +267,7 @@ class visible_lookup {
             whole > 0.0 ? within_unit(part / whole) : half.along};
   }
 
-  /// Appends a table, scaled to an integral of 1: its sums are interpolated with those of the next theta_i.
+  /// Appends a table, scaled to an integral of 1, because its sums are interpolated with the sums of the next theta_i.
   void append(const table_sums& sums, Eigen::Map<Eigen::ArrayXf> density) {
     const auto scaled = [whole = sums.total()](double number) { return static_cast<float>(number / whole); };
     for (Eigen::Index i = 0; i < density.size(); ++i) {
@@ -306,7 +307,8 @@ class reflectance_lookup {
     return between_sides(grid_.mixed_rows<8, float>(values_.data(), patch, light), patch.inside.along, factor);
   }
 
-  /// Returns the same between the tables of two azimuths of the light. Each azimuth has `angles` tables.
+  /// Returns the reflectance interpolated also between the tables of two azimuths of the light. Each azimuth has
+  /// `angles` tables.
   [[nodiscard]] rgb value(const square_point& at, const between_neighbours& light, const between_neighbours& azimuth,
                           Eigen::Index angles, double factor) const noexcept {
     const square_patch patch = grid_.find(at);

@@ -21,7 +21,8 @@ namespace gonio::model::detail {
 inline constexpr double full_turn = 2.0 * std::numbers::pi;
 
 GONIO_INLINE direction direction_about_specular(double theta, double phi, double radial, double azimuth) noexcept {
-  // In the plane of incidence, with light from +x: the specular direction, and that from it towards the normal.
+  // In the plane of incidence, with light from +x: the specular direction, and the direction from it towards the
+  // normal.
   const direction specular{-std::sin(theta), 0.0, std::cos(theta)}, to_normal{std::cos(theta), 0.0, std::sin(theta)};
   const double across = std::sin(radial);
   direction w = gonio::detail::combined(std::cos(radial), specular, across * std::cos(azimuth), to_normal);
@@ -29,7 +30,7 @@ GONIO_INLINE direction direction_about_specular(double theta, double phi, double
   return turned_about_normal(w, phi);
 }
 
-/// The inverse: radial angle and azimuth of a viewer.
+/// The inverse: returns the radial angle and the azimuth of a viewer.
 [[nodiscard]] inline std::pair<double, double> angles_about_specular(double theta, double phi,
                                                                      const direction& wo) noexcept {
   const direction w = turned_about_normal(wo, -phi);

@@ -34,8 +34,8 @@ GONIO_INLINE std::vector<lobe_kind::values> typical_shapes(const std::vector<con
   return shapes;
 }
 
-/// Returns typical shapes; if they have periodic parameters, four times, with these in the middles of four parts of
-/// their period.
+/// Returns typical shapes. If they have periodic parameters, returns four versions, with these parameters in the
+/// middles of four parts of their period.
 [[nodiscard]] GONIO_INLINE std::vector<std::vector<lobe_kind::values>> usual_starts(
     const std::vector<const lobe_kind*>& kinds) {
   std::vector<std::vector<lobe_kind::values>> starts(4, typical_shapes(kinds));

@@ -206,7 +206,7 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x, double a
   const auto parameters = parameters_of(x);
   const Eigen::MatrixXd colour = colours(x);
   // For each channel, sum over the observations the products of the slopes with one another and with the residual. The
-  // slopes are those with respect to the shapes and to the channel's own colours.
+  // slopes are with respect to the shapes and to the channel's own colours.
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(3 * (n + 1), n + 1);
   const Eigen::MatrixXd sums = sum_over_blocks(
       observations_.size(), block_size, zero,

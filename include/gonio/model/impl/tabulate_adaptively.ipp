@@ -41,7 +41,8 @@ inline constexpr double rough_share = 0.2;
   return 2.0 * (up * limit + aside * std::sin(limit));
 }
 
-/// A distribution of normals over polar angles. They are at equal steps of the coordinate along a row of the tables.
+/// A distribution of normals over polar angles. The angles are at equal steps of the coordinate along a row of the
+/// tables.
 class normal_distribution {
  public:
   /// Computes the distribution from the retroreflection of f.
@@ -313,7 +314,7 @@ class adaptive_tabulation {
       for (Eigen::Index column = 0; column < visible.columns; ++column) {
         const square_point node{unit_coordinate(row, visible.rows), unit_coordinate(column, visible.columns)};
         const direction m = half_vector_at(node);
-        // The density per unit square, from that per solid angle, up to a constant factor.
+        // The density per unit square, from the density per solid angle, up to a constant factor.
         const double jacobian = node.along * std::hypot(m.x(), m.y());
         visible.values[at++] =
             static_cast<float>(normal_density_at(parts_.normals, node) * std::max(wi.dot(m), 0.0) * jacobian);

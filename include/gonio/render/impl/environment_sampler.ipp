@@ -31,11 +31,11 @@ GONIO_INLINE environment_sampler::environment_sampler(environment_map map) : map
     edges_.push_back(std::cos(static_cast<double>(row) * std::numbers::pi / static_cast<double>(map_.rows())));
   // Store the first position of each step, and one more position to allow for rounding at the end.
   guesses_.reserve(pixels + 1);
-  std::size_t place = 0;
+  std::size_t position = 0;
   for (std::size_t step = 0; step < pixels; ++step) {
     const double least = static_cast<double>(step) / static_cast<double>(pixels) * (1.0 - 1e-12) * sum;
-    while (place + 1 < pixels && reached_[place + 1] <= least) ++place;
-    guesses_.push_back(static_cast<std::uint32_t>(place));
+    while (position + 1 < pixels && reached_[position + 1] <= least) ++position;
+    guesses_.push_back(static_cast<std::uint32_t>(position));
   }
   guesses_.push_back(static_cast<std::uint32_t>(pixels - 1));
 }

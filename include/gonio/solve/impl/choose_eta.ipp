@@ -70,10 +70,10 @@ class eta_scores {
   }
 
   [[nodiscard]] Eigen::VectorXd squared_residuals_dual(const Eigen::VectorXd& etas) const {
-    const Eigen::VectorXd energy = coefficients_.rowwise().squaredNorm();
+    const Eigen::VectorXd squared_norms = coefficients_.rowwise().squaredNorm();
     const Eigen::MatrixXd factors = left_over(etas);
     Eigen::VectorXd squares(etas.size());
-    for (Eigen::Index e = 0; e < etas.size(); ++e) squares[e] = factors.col(e).cwiseAbs2().dot(energy);
+    for (Eigen::Index e = 0; e < etas.size(); ++e) squares[e] = factors.col(e).cwiseAbs2().dot(squared_norms);
     return squares;
   }
 
@@ -82,7 +82,7 @@ class eta_scores {
   /// by z^2 / lambda times the growth of f^2, where f = eta / (lambda + eta).
   [[nodiscard]] Eigen::VectorXd squared_residuals_primal(const Eigen::VectorXd& etas) const {
     const double first = etas.minCoeff();
-    const Eigen::VectorXd energy = coefficients_.rowwise().squaredNorm();
+    const Eigen::VectorXd squared_norms = coefficients_.rowwise().squaredNorm();
     Eigen::MatrixXd shrunk = coefficients_;
     for (Eigen::Index i = 0; i < values_.size(); ++i) shrunk.row(i) /= values_[i] + first;
     const Eigen::MatrixXd x = product(vectors_, shrunk);
@@ -90,7 +90,7 @@ class eta_scores {
     for (Eigen::Index e = 0; e < etas.size(); ++e)
       for (Eigen::Index i = 0; i < values_.size(); ++i) {
         const double eta = etas[e], value = values_[i], both = (value + eta) * (value + first);
-        squares[e] += energy[i] / both * (eta - first) * (2.0 * eta * first + value * (eta + first)) / both;
+        squares[e] += squared_norms[i] / both * (eta - first) * (2.0 * eta * first + value * (eta + first)) / both;
       }
     return squares;
   }

@@ -29,8 +29,8 @@ namespace gonio {
 namespace detail {
 
 /// Assembles the normal equations of weighted rows. [A, b], scaled by sqrt(w), gives Q, A'Wb and b'Wb as blocks of one
-/// Gram matrix. All in double; reads A once; n (k + r)^2 operations for n rows, k columns and r right-hand sides; same
-/// bytes for any number of threads. Throws gonio::error if the result is not finite.
+/// Gram matrix. All in double; reads A once; n (k + r)^2 operations for n rows, k columns and r right-hand sides. Any
+/// number of threads gives the same bytes. Throws gonio::error if the result is not finite.
 [[nodiscard]] GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
                                                      const Eigen::VectorXd& weights, thread_count threads) {
   // Sum [A b]'W [A b] over blocks of rows.

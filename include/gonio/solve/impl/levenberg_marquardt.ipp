@@ -20,7 +20,7 @@ namespace gonio::detail {
 GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
                                           const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) {
   const Eigen::Index n = gradient.size();
-  // Hold the unknowns at a bound that the gradient pushes against.
+  // Hold each unknown that is at a bound, if descent would cross the bound.
   Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -39,7 +39,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
       for (Eigen::Index i = 0; i < count; ++i) among(i, j) = hessian(free[i], column);
     }
     const Eigen::VectorXd moves = solve_semidefinite(among, descent);
-    // If the step of an unknown leaves the box, hold the unknown at the border.
+    // If the step of an unknown leaves the bounds, hold the unknown at the bound.
     std::vector<Eigen::Index> inside;
     for (Eigen::Index j = 0; j < std::ssize(free); ++j) {
       const Eigen::Index i = free[j];

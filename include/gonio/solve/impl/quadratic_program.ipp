@@ -53,8 +53,8 @@ GONIO_INLINE program_optimum program_solver::judge(const iteration& run, const v
   };
   found.kkt_residual = certify(found.weights);
   if (found.kkt_residual <= good) return found;
-  // If the rows only allow zero, the weights are rounding errors, and their violation of the rows is large relative to
-  // them.
+  // If the rows allow only zero, the weights are rounding errors. Relative to the weights, their violation of the rows
+  // is large.
   const vector& y = run.scaled_weights();
   const double tiny = 1e-14 * (q.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff());
   const vector snapped = (y.array().abs() > tiny).select(found.weights, 0.0);

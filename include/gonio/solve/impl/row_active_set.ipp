@@ -80,7 +80,7 @@ GONIO_INLINE bool row_active_set::enter(Eigen::Index column) {
   return exchange(column);
 }
 
-/// Does what `active_set::exchange` does, on the rows.
+/// Works like `active_set::exchange`, but on the rows.
 GONIO_INLINE bool row_active_set::exchange(Eigen::Index column) {
   if (penalty_[column] == 0.0 || state_.passive.empty()) return false;
   const householder_qr qr(columns_of(state_.passive));
@@ -107,9 +107,9 @@ GONIO_INLINE bool row_active_set::exchange(Eigen::Index column) {
 }
 
 GONIO_INLINE void row_active_set::drop(std::ptrdiff_t position) {
-  const auto place = state_.passive.begin() + position;
-  state_.x[*place] = state_.sign[*place] = 0.0;
-  state_.passive.erase(place);
+  const auto dropped = state_.passive.begin() + position;
+  state_.x[*dropped] = state_.sign[*dropped] = 0.0;
+  state_.passive.erase(dropped);
 }
 
 GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {

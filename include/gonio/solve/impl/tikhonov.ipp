@@ -81,8 +81,8 @@ struct ridge_rows {
   for (Eigen::Index i = 0; i < penalised.rows(); ++i) penalised(i, i) += eta;
   const cholesky factors(penalised);
   Eigen::MatrixXd x = thin_transposed_product(ridge.rows, factors.solve(ridge.right));
-  // Make a Newton step, with the inverse of A~'A~ + eta I through the dual (Woodbury). It restores digits: if eta is
-  // small and rows depend on each other, the product of A~' with a large dual solution loses some.
+  // Make a Newton step, with the inverse of A~'A~ + eta I through the dual (Woodbury). The step restores digits: if eta
+  // is small and rows depend on each other, the product of A~' with a large dual solution loses some.
   Eigen::MatrixXd step = ridge.gradient(ridge.misfit(x), x);
   const Eigen::MatrixXd seen = thin_transposed_product(ridge.rows, factors.solve(thin_product(ridge.rows, step)));
   add_scaled(-1.0, seen.data(), step.data(), step.size());

@@ -27,9 +27,9 @@ GONIO_INLINE bool working_set::release(Eigen::Index j) {
 }
 
 GONIO_INLINE void working_set::fix(Eigen::Index j) {
-  const auto place = std::ranges::find(free_, j);
-  factor_.remove(place - free_.begin());
-  free_.erase(place);
+  const auto fixed = std::ranges::find(free_, j);
+  factor_.remove(fixed - free_.begin());
+  free_.erase(fixed);
   is_free_[j] = false;
   changed_ = true;
 }

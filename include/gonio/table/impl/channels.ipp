@@ -47,7 +47,7 @@ GONIO_INLINE rgb channels::colour(std::span<const double> values) const {
 
 namespace detail {
 
-/// Returns the positions of a third of some channels: the first one, and the one after the last.
+/// Returns the range of a third of some channels: the first position, and the position after the last.
 [[nodiscard]] inline std::pair<Eigen::Index, Eigen::Index> third_of(Eigen::Index channels, Eigen::Index third) {
   const Eigen::Index first = third * channels / 3;
   return {first, std::max((third + 1) * channels / 3, first + 1)};

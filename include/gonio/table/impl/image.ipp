@@ -13,9 +13,9 @@
 namespace gonio {
 
 GONIO_INLINE image uniform_image(std::size_t rows, std::size_t columns, const rgb& colour) {
-  image picture({rows, columns, std::size_t{3}});
-  for (std::size_t i = 0; i < picture.size(); ++i) picture.data()[i] = static_cast<float>(colour[i % 3]);
-  return picture;
+  image pixels({rows, columns, std::size_t{3}});
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels.data()[i] = static_cast<float>(colour[i % 3]);
+  return pixels;
 }
 
 }  // namespace gonio

@@ -28,12 +28,12 @@ GONIO_INLINE spectral_table::spectral_table(valid_cells cells, std::vector<doubl
             values_.rows(), " x ", values_.cols()});
 }
 
-GONIO_INLINE Eigen::ArrayXf spectral_table::at(const location& place) const {
+GONIO_INLINE Eigen::ArrayXf spectral_table::at(const location& at) const {
   Eigen::ArrayXf spectrum(bands());
   for (Eigen::Index band = 0; band < bands(); ++band) {
     double sum = 0.0;
-    for (int corner = 0; corner < place.count; ++corner)
-      sum += place.weight[corner] * double{values_(Eigen::Index{place.cell[corner]}, band)};
+    for (int corner = 0; corner < at.count; ++corner)
+      sum += at.weight[corner] * double{values_(Eigen::Index{at.cell[corner]}, band)};
     spectrum[band] = static_cast<float>(sum);
   }
   return spectrum;

@@ -23,7 +23,7 @@ namespace detail {
 /// Number of texels that are solved at once: few enough for their values to stay in the cache.
 inline constexpr Eigen::Index texels_at_once = 512;
 
-/// Throws gonio::error naming the first value of an image that is not finite in a range of texels.
+/// Throws gonio::error that names the first non-finite value of an image in a range of texels.
 [[gnu::cold]] GONIO_INLINE void refuse_texel(const float_matrix_view& reflectance, Eigen::Index image, block texels) {
   for (Eigen::Index i = 3 * texels.begin; i < 3 * texels.end; ++i)
     if (!std::isfinite(reflectance(i, image)))

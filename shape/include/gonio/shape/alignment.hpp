@@ -83,7 +83,7 @@ namespace detail {
 }  // namespace detail
 
 /// Repeatedly aligns each shape to the mean of all, until the mean converges. The first mean is the first shape, and
-/// the result stays in its coordinates. With rigid transforms, the mean is that of the aligned shapes. With
+/// the result stays in its coordinates. With rigid transforms, `mean` is the mean of the aligned shapes. With
 /// similarities, each iteration scales the mean to the mean centroid size of the given shapes; without that, all shapes
 /// would shrink to a point. O(points x shapes) per iteration.
 ///

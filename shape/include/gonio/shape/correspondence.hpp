@@ -29,13 +29,13 @@ struct posed_scan {
 
   /// Returns the outward normal at a point that `closest` or `along` found, in the model's space: see
   /// `surface_index::pseudonormal`.
-  [[nodiscard]] Eigen::Vector3d normal(const surface_point& place) const;
+  [[nodiscard]] Eigen::Vector3d normal(const surface_point& point) const;
 
   /// Returns the weight at a point; 1 if the surface's vertices have no weights.
-  [[nodiscard]] double weight_at(const surface_point& place) const;
+  [[nodiscard]] double weight_at(const surface_point& point) const;
 
  private:
-  [[nodiscard]] surface_point placed(surface_point found) const;
+  [[nodiscard]] surface_point in_model_space(surface_point found) const;
 };
 
 /// The conditions for a scan to show a vertex, and the weight of its residuals.
@@ -45,8 +45,8 @@ struct correspondence_options {
   double tangential = 0.0003;     ///< weight along the surface: see `vertex_observations`
 };
 
-/// Returns the marked vertices, with their columns of `places` and `normals`.
-[[nodiscard]] vertex_observations shown_vertices(const point_columns& places, const point_columns& normals,
+/// Returns the marked vertices, with their columns of `positions` and `normals`.
+[[nodiscard]] vertex_observations shown_vertices(const point_columns& positions, const point_columns& normals,
                                                  const std::vector<char>& shown, double tangential);
 
 /// Returns, for each vertex that the scan shows, the closest point of the scan. This point must not be on the scan's
@@ -54,8 +54,9 @@ struct correspondence_options {
 ///
 /// The normals are the shape's, not the scan's. Noise of a tenth of the edge length turns the scan's triangle normals
 /// by some degrees; with these, a vertex that slides along the surface would seem to leave it.
-[[nodiscard]] vertex_observations closest_places(const posed_scan& scan, const triangle_mesh& shape,
-                                                 const correspondence_options& options = {}, thread_count threads = {});
+[[nodiscard]] vertex_observations closest_correspondences(const posed_scan& scan, const triangle_mesh& shape,
+                                                          const correspondence_options& options = {},
+                                                          thread_count threads = {});
 
 }  // namespace gonio::shape
 

@@ -30,8 +30,8 @@ class cross_validated_uncertainty {
  public:
   /// Measures the covariance for `recovered`, the result of `recover` for this model and scan. Takes the time of
   /// `trials` recoveries. The result does not depend on the number of threads. Throws gonio::error for fewer than 10
-  /// trials or more trials than shapes, for fewer than two parts, if fewer than two shapes remain without a part, and
-  /// if fewer than 10 trials recover their shape.
+  /// trials or more trials than shapes, for fewer than two parts, if leaving out a part leaves fewer than two shapes,
+  /// and if fewer than 10 trials recover their shape.
   cross_validated_uncertainty(const shape_model& model, const surface_index& scan, const recovered_shape& recovered,
                               const cross_validation_options& options = {}, thread_count threads = {});
 

@@ -34,11 +34,11 @@ struct fit_to_scan_options {
 
 /// A model fitted to a scan.
 struct fit_to_scan_result {
-  similarity_transform pose;    ///< from the scan to the model
-  shape_with_motion functions;  ///< the components used and the motion, in the model's space
-  Eigen::VectorXd all_weights;  ///< the weights of all `functions`
-  vertex_observations places;   ///< the vertices that the scan shows
-  tikhonov solver;              ///< the solver that found the weights
+  similarity_transform pose;            ///< from the scan to the model
+  shape_with_motion functions;          ///< the components used and the motion, in the model's space
+  Eigen::VectorXd all_weights;          ///< the weights of all `functions`
+  vertex_observations correspondences;  ///< the vertices that the scan shows
+  tikhonov solver;                      ///< the solver that found the weights
   int iterations = 0;
 
   /// Returns the vertices in the model's space. `pose` includes their motion.
@@ -53,13 +53,13 @@ struct fit_to_scan_result {
 };
 
 /// Throws gonio::error unless a scan shows at least 10 of a model's vertices.
-void require_shown(const vertex_observations& places, const shape_model& model);
+void require_shown(const vertex_observations& correspondences, const shape_model& model);
 
 namespace detail {
 
 /// Returns the Geman-McClure weights 1 / (1 + (d / d0)^2)^2 of points of a scan at distances d from the shape. d0 is
 /// three times the position error, or three times the median distance if that is larger.
-[[nodiscard]] Eigen::VectorXd inlier_weights(const vertex_observations& places, const point_columns& shape,
+[[nodiscard]] Eigen::VectorXd inlier_weights(const vertex_observations& correspondences, const point_columns& shape,
                                              double position_error);
 
 }  // namespace detail

@@ -38,7 +38,7 @@ struct vertex_observations {
 
 /// Returns three samples for each known vertex: its coordinates along its normal and two tangents, or x, y and z if it
 /// has no normal. Throws gonio::error if no vertex is known, if one does not exist or is not finite, if a normal does
-/// not have length 1, or if the numbers of positions, normals or weights differ from that of the vertices.
+/// not have length 1, or if the numbers of positions, normals or weights differ from the number of vertices.
 [[nodiscard]] located_samples locate_vertices(const vertex_coordinates& coordinates, const vertex_observations& known);
 
 /// A shape given by the weights of a basis, with the solver's report.

@@ -1,7 +1,8 @@
 #pragma once
 /// Shortest distances along a surface's edges, and the vertices nearest in this distance: Dijkstra's algorithm (1959,
 /// doi:10.1007/BF01386390). "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution
-/// C.V, section 3) chooses the vertices that predict a missing one by these distances: across a fold they are long.
+/// C.V, section 3) chooses by these distances the vertices that predict a missing one: across a fold the distances are
+/// long.
 ///
 /// Paths along edges are never shorter than the true geodesics. On equilateral triangles they are 10% longer on average
 /// over all directions and at most 15.5% (2/sqrt(3)), however fine the mesh. On a grid of squares cut in two they are

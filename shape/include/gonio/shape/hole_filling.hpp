@@ -16,11 +16,10 @@ enum class smoothness {
   thin_plate  ///< squared distances of vertices from the mean of their neighbours: continues the slope at the rim
 };
 
-/// Returns the points (3 x vertices), with the unknown points where the energy is least. The given positions of unknown
-/// points have no influence and may be infinite or NaN. All neighbours have the same weight: cotangents would need the
-/// missing positions, and on a template's near-equilateral triangles the difference is small. Thin plates reproduce
-/// planes on even meshes. In a hole that reaches the mesh's border, they extrapolate the rim's slope and soon deviate
-/// far.
+/// Returns the points (3 x vertices); the unknown points minimise the energy. The given positions of unknown points
+/// have no influence and may be infinite or NaN. All neighbours have the same weight: cotangents would need the missing
+/// positions, and on a template's near-equilateral triangles the difference is small. Thin plates reproduce planes on
+/// even meshes. In a hole that reaches the mesh's border, they extrapolate the rim's slope and soon deviate far.
 ///
 /// A sparse Cholesky factorisation: about O(n^1.5) for n missing vertices. Throws gonio::error unless there are as many
 /// points and marks as vertices, each connected part has a known vertex, known points are finite, and they determine

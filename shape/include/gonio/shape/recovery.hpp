@@ -41,7 +41,7 @@ struct algorithm_1_options {
   double first_explained_variance = 0.30;
   double last_explained_variance = 0.999;
   int rounds = 10;  ///< rounds in which the explained variance rises
-  /// The rounds for all vertices at once go on until they change the shape by less, root mean square in mm.
+  /// The rounds for all vertices at once stop when the root mean square change of the shape is at most this, mm.
   double tolerance = 1e-3;
   int most_rounds = 200;         ///< rounds for all vertices at once
   int local_rounds = 3;          ///< rounds that predict each vertex from its nearest known vertices; may be 0
@@ -63,10 +63,10 @@ namespace detail {
                                                   const similarity_transform& pose,
                                                   const algorithm_1_options& options = {}, thread_count threads = {});
 
-/// Algorithm 1 from a fit that was found in another way. Ignores `options.coarse` and `options.confidence`. Throws
-/// gonio::error if the scan shows hardly any vertex of the model.
+/// Runs Algorithm 1 from a given fit. Ignores `options.coarse` and `options.confidence`. Throws gonio::error as
+/// `require_shown` and `fit_shape` do.
 [[nodiscard]] recovered_shape recover_algorithm_1(const shape_model& model, const surface_index& scan,
-                                                  fit_to_scan_result begin, const algorithm_1_options& options = {},
+                                                  fit_to_scan_result initial, const algorithm_1_options& options = {},
                                                   thread_count threads = {});
 
 }  // namespace gonio::shape

@@ -1,7 +1,7 @@
 #pragma once
-/// Principal components of corresponded shapes: the basis of BRDFs, over the coordinates of vertices. "Anatomically
-/// correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), Eq. 1-2 and 4. The metric is the
-/// identity, `lin`.
+/// Principal components of corresponded shapes: the same `pca` as for BRDFs, over the coordinates of vertices.
+/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), Eq. 1-2 and 4. The
+/// metric is the identity, `lin`.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/metric/lin.hpp>

@@ -49,10 +49,10 @@ class point_tree {
   explicit point_tree(const point_columns& points);
 
   /// Returns the squared distance to the closest point. O(log n). The tree must have a point.
-  [[nodiscard]] double squared_distance(const Eigen::Vector3d& place) const;
+  [[nodiscard]] double squared_distance(const Eigen::Vector3d& point) const;
 
   /// Returns the numbers of the points nearer than a radius, always in the same order.
-  [[nodiscard]] std::vector<Eigen::Index> within(double radius, const Eigen::Vector3d& place) const;
+  [[nodiscard]] std::vector<Eigen::Index> within(double radius, const Eigen::Vector3d& centre) const;
 
  private:
   struct built_tree;
@@ -72,7 +72,7 @@ class point_tree {
 /// Returns the bin of a point in a frame's coordinates. The point must not be zero, and must be within the radius. The
 /// azimuth from b1 is atan2(y, x), over a full turn; the paper prints arctan(y / x), which cannot distinguish opposite
 /// points.
-[[nodiscard]] Eigen::Index context_bin(const Eigen::Vector3d& place, const shape_context_options& options);
+[[nodiscard]] Eigen::Index context_bin(const Eigen::Vector3d& point, const shape_context_options& options);
 
 /// Returns `count` evenly spread vertices of triangles: first the one farthest from the centroid of all vertices, then
 /// always the one farthest from those chosen before. If several are equally far, takes the lowest number. Returns fewer

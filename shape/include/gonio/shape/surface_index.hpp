@@ -51,9 +51,9 @@ class surface_index {
   /// Returns the outward normal that determines signs: inside a triangle, its normal; on an edge, the mean normal of
   /// its triangles; at a vertex, the mean normal of its triangles, weighted by their angles there. It has length 1, or
   /// is zero if none of these triangles has an area.
-  [[nodiscard]] Eigen::Vector3d pseudonormal(const surface_point& place) const;
+  [[nodiscard]] Eigen::Vector3d pseudonormal(const surface_point& point) const;
 
-  /// Returns the distance to the surface, positive outside. The sign is that of Baerentzen and Aanaes, who prove it for
+  /// Returns the distance to the surface, positive outside. Baerentzen and Aanaes define the sign, and prove it for
   /// closed surfaces. Beyond a border, the sign refers to the continued surface. Throws gonio::error if the point is
   /// not finite.
   [[nodiscard]] double signed_distance(const Eigen::Vector3d& point) const;

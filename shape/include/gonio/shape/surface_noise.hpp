@@ -17,8 +17,8 @@ namespace gonio::shape {
 /// Returns the variance of the noise along the normals about each vertex, in the squared unit of the mesh.
 ///
 /// Subtracting means over neighbours twice leaves only fourth derivatives of a smooth surface, but nearly all of
-/// independent noise. Where five to seven edges meet, the variance of the remainder is that of the noise within a few
-/// percent. Two more means average the squared remainder over about nineteen vertices. O(vertices + edges).
+/// independent noise. Where five to seven edges meet, the remainder has the variance of the noise within a few percent.
+/// Two more means average the squared remainder over about nineteen vertices. O(vertices + edges).
 [[nodiscard]] Eigen::RowVectorXd noise_variances(const triangle_mesh& mesh, const mesh_topology& topology);
 
 }  // namespace gonio::shape

@@ -45,8 +45,8 @@ namespace gonio::io::detail {
   gonio::refuse({name, ": ", kind.noun, " format version ", version, ", this program reads ", readable});
 }
 
-/// Returns a zlib stream that has at least an eighth of the payload's size. For a payload that deflate would shrink so
-/// much that `is_believable` refused the file.
+/// Returns a zlib stream of at least an eighth of the payload's size. Used if deflate would shrink the payload so much
+/// that `is_believable` refused the file.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<std::byte> huffman_code(std::span<const std::byte> bytes) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS, 8, Z_HUFFMAN_ONLY) != Z_OK)

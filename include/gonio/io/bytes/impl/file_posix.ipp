@@ -125,8 +125,8 @@ class machine_name {
   if (const machine_name here; !name.empty() && name != std::string_view(here)) return false;
   if (process != ::getpid()) return ::kill(process, 0) != 0 && errno == ESRCH;
   // Keep the files that another thread is writing.
-  return std::ranges::none_of(named_temporaries, [&](const auto& place) {
-    const std::uint64_t note = place.load();
+  return std::ranges::none_of(named_temporaries, [&](const auto& slot) {
+    const std::uint64_t note = slot.load();
     return note != 0 && static_cast<std::uint32_t>(note & 0xffff'ffffu) == static_cast<std::uint32_t>(number);
   });
 }
@@ -241,11 +241,11 @@ bool file_writer::claim_name(Claim&& claim) {
   for (int attempt = 0; attempt < 1000; ++attempt) {
     temporary_.emplace(detail::next_temporary++);
     // Note the file's name before the file exists: a signal's handler can then remove the file at any time.
-    for (auto& place : detail::named_temporaries) {
+    for (auto& slot : detail::named_temporaries) {
       std::uint64_t free = 0;
       const auto note = (static_cast<std::uint64_t>(folder_.get()) + 1) << 32 | temporary_->number;
-      if (!place.compare_exchange_strong(free, note)) continue;
-      noted_ = &place;
+      if (!slot.compare_exchange_strong(free, note)) continue;
+      noted_ = &slot;
       break;
     }
     if (claim(temporary_->c_str())) return true;
@@ -271,8 +271,8 @@ bool file_writer::claim_name(Claim&& claim) {
 }
 
 [[gnu::cold]] GONIO_INLINE void remove_unfinished_files() noexcept {
-  for (const auto& place : detail::named_temporaries)
-    if (const std::uint64_t note = place.load(); note != 0)
+  for (const auto& slot : detail::named_temporaries)
+    if (const std::uint64_t note = slot.load(); note != 0)
       ::unlinkat(static_cast<int>(note >> 32) - 1,
                  detail::temporary_name(static_cast<std::uint32_t>(note & 0xffff'ffffu)).c_str(), 0);
 }

@@ -78,14 +78,14 @@ GONIO_INLINE exposure_times read_exposure_times(const std::filesystem::path& pat
   exposure_times times;
   const std::vector<std::string_view>& fields = table.fields();
   if (table.next() && (fields.size() != 2 || fields[0] != "file" || fields[1] != "seconds"))
-    table.place().refuse("expected the header 'file,seconds'");
+    table.position().refuse("expected the header 'file,seconds'");
   while (table.next()) {
     const std::optional<double> time = detail::positive_quotient(fields[1], table);
     if (fields[0].empty() || !time)
-      table.place().refuse({"expected a file and a positive number of seconds, not ", in_quotes(fields[0]), " and ",
-                            in_quotes(fields[1])});
+      table.position().refuse({"expected a file and a positive number of seconds, not ", in_quotes(fields[0]), " and ",
+                               in_quotes(fields[1])});
     if (!times.emplace(fields[0], *time).second)
-      table.place().refuse({"the file ", in_quotes(fields[0]), " appears twice"});
+      table.position().refuse({"the file ", in_quotes(fields[0]), " appears twice"});
   }
   if (times.empty()) gonio::refuse({path.string(), ": has no exposure time"});
   return times;

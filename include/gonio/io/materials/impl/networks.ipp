@@ -29,9 +29,9 @@ GONIO_INLINE std::vector<std::string> read_names(const std::filesystem::path& pa
     text.remove_prefix(std::min(end + 1, text.size()));
     name.remove_prefix(std::min(name.find_first_not_of(" \t\r"), name.size()));
     name = name.substr(0, name.find_last_not_of(" \t\r") + 1);
-    const std::string place = path.string() + ", line " + std::to_string(names.size() + 1) + ": ";
-    if (name.empty()) gonio::refuse({place, "the name is empty"});
-    if (!seen.insert(name).second) gonio::refuse({place, "the name '", std::string(name), "' appears twice"});
+    const std::string line_name = path.string() + ", line " + std::to_string(names.size() + 1) + ": ";
+    if (name.empty()) gonio::refuse({line_name, "the name is empty"});
+    if (!seen.insert(name).second) gonio::refuse({line_name, "the name '", std::string(name), "' appears twice"});
     names.emplace_back(name);
   }
   return names;

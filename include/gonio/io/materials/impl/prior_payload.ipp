@@ -162,7 +162,7 @@ GONIO_INLINE log_relative_pca read_prior(byte_reader& in, const std::string& nam
   const auto singular = in.read_all<double>(components);
   const auto observed = in.read_all<float>(channels * materials * components);
 
-  // Decode the quantised reference, mean and components.
+  // Read the quantised reference, mean and components.
   std::vector<float> reference = detail::dequantise_all(read_quantised<std::uint16_t>(in, cells.size()));
   for (float& value : reference) value = std::exp(value);
   std::vector<float> mean = detail::dequantise_all(read_quantised<std::uint16_t>(in, cells.size()));

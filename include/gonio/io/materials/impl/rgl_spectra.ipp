@@ -29,10 +29,10 @@ class three_wavelengths {
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     rgb sum(0.0, 0.0, 0.0);
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return sum;
-    const location at = locate(table_.cells(), to_half_difference(wi, wo));
-    for (int corner = 0; corner < at.count; ++corner)
+    const location found = locate(table_.cells(), to_half_difference(wi, wo));
+    for (int corner = 0; corner < found.count; ++corner)
       for (Eigen::Index c = 0; c < 3; ++c)
-        sum[c] += at.weight[corner] * double{table_.values()(Eigen::Index{at.cell[corner]}, bands_[c])};
+        sum[c] += found.weight[corner] * double{table_.values()(Eigen::Index{found.cell[corner]}, bands_[c])};
     return sum;
   }
 
@@ -145,14 +145,14 @@ GONIO_INLINE sample_set sample_spectra(const rgl_material& material, std::span<c
   std::vector<model::adaptive_brdf> by_threes;
   for (Eigen::Index first = 0; first < bands; first += 3)
     by_threes.push_back(detail::three_wavelengths_of(material, first));
-  for (const sample_directions& at : directions) {
+  for (const sample_directions& each : directions) {
     std::vector<double> spectrum;
     for (const model::adaptive_brdf& three : by_threes) {
-      const rgb value = three(at.pair().wi, at.pair().wo);
+      const rgb value = three(each.pair().wi, each.pair().wo);
       spectrum.insert(spectrum.end(), value.begin(), value.end());
     }
     spectrum.resize(static_cast<std::size_t>(bands));
-    samples.add(at, spectrum);
+    samples.add(each, spectrum);
   }
   require_usable(samples);
   return samples;

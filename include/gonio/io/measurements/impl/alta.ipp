@@ -52,7 +52,7 @@ inline constexpr std::array<alta_parametrisation, 6> alta_inputs{
 /// Reads a file line by line.
 class alta_reader {
  public:
-  explicit alta_reader(text_place& place) : place_(place) {}
+  explicit alta_reader(text_position& position) : position_(position) {}
 
   void read(std::string_view line);
 
@@ -71,7 +71,7 @@ class alta_reader {
   [[nodiscard]] direction unit_vector(std::span<const double> numbers) const;
   [[nodiscard]] direction_pair directions() const;
 
-  text_place& place_;
+  text_position& position_;
   const alta_parametrisation* input_ = nullptr;
   std::size_t inputs_ = 0, outputs_ = 0;  ///< from #DIM
   std::string output_;
@@ -86,7 +86,7 @@ GONIO_INLINE void alta_reader::read(std::string_view line) {
 }
 
 GONIO_INLINE sample_collector alta_reader::samples() && {
-  if (!collector_) gonio::refuse({place_.name, ": has no line of numbers below its header"});
+  if (!collector_) gonio::refuse({position_.name, ": has no line of numbers below its header"});
   return *std::move(collector_);
 }
 
@@ -97,18 +97,18 @@ GONIO_INLINE void alta_reader::read_entry(std::string_view line) {
   if (key == "PARAM_IN") read_input(value);
   if (key == "PARAM_OUT") read_output(value);
   if (key == "FORMAT" && value != "text")
-    place_.refuse({"#FORMAT ", in_quotes(value), " is not supported, expected text"});
+    position_.refuse({"#FORMAT ", in_quotes(value), " is not supported, expected text"});
 }
 
 GONIO_INLINE void alta_reader::read_dimensions(std::string_view value) {
   constexpr double most = 16.0;
   std::vector<std::string_view> words;
   split_at_blanks(value, words);
-  if (words.size() != 2) place_.refuse({"#DIM: ", in_quotes(value), ", expected two counts from 1 to 16"});
+  if (words.size() != 2) position_.refuse({"#DIM: ", in_quotes(value), ", expected two counts from 1 to 16"});
   const auto count = [&](std::string_view word) {
-    const double number = read_number(word, place_, [] { return "#DIM"; });
+    const double number = read_number(word, position_, [] { return "#DIM"; });
     if (!(number >= 1.0 && number <= most && number == std::floor(number)))
-      place_.refuse({"#DIM: ", in_quotes(word), ", expected two counts from 1 to 16"});
+      position_.refuse({"#DIM: ", in_quotes(word), ", expected two counts from 1 to 16"});
     return static_cast<std::size_t>(number);
   };
   inputs_ = count(words[0]);
@@ -120,8 +120,8 @@ GONIO_INLINE void alta_reader::read_input(std::string_view name) {
   if (found == alta_inputs.end()) {
     std::vector<std::string_view> names;
     for (const alta_parametrisation& each : alta_inputs) names.push_back(each.name);
-    place_.refuse({"#PARAM_IN ", in_quotes(name), " is unknown or does not give both directions, expected ",
-                   listed(names, " or ")});
+    position_.refuse({"#PARAM_IN ", in_quotes(name), " is unknown or does not give both directions, expected ",
+                      listed(names, " or ")});
   }
   input_ = found;
 }
@@ -130,22 +130,22 @@ GONIO_INLINE void alta_reader::read_output(std::string_view name) {
   constexpr std::array<std::string_view, 4> known{"INV_STERADIAN", "INV_STERADIAN_COSINE_FACTOR", "RGB_COLOR",
                                                   "XYZ_COLOR"};
   if (std::ranges::find(known, name) == known.end())
-    place_.refuse({"#PARAM_OUT ", in_quotes(name), " does not name the quantity of the values, expected ",
-                   listed(known, " or ")});
+    position_.refuse({"#PARAM_OUT ", in_quotes(name), " does not name the quantity of the values, expected ",
+                      listed(known, " or ")});
   output_ = name;
 }
 
 /// Checks the complete header and prepares the collector.
 GONIO_INLINE void alta_reader::begin_rows() {
-  if (input_ == nullptr) place_.refuse("there is no line #PARAM_IN above the numbers");
+  if (input_ == nullptr) position_.refuse("there is no line #PARAM_IN above the numbers");
   if (output_.empty())
-    place_.refuse(
+    position_.refuse(
         "there is no line #PARAM_OUT above the numbers, expected one such as "
         "'#PARAM_OUT INV_STERADIAN' (a BRDF, sr^-1)");
   const bool is_colour = output_.ends_with("COLOR");
   if (inputs_ != input_->numbers || outputs_ != (is_colour ? 3U : 1U))
-    place_.refuse({"#DIM states ", inputs_, " and ", outputs_, " numbers, expected ", input_->numbers,
-                   " for #PARAM_IN ", input_->name, " and ", is_colour ? 3 : 1, " for #PARAM_OUT ", output_});
+    position_.refuse({"#DIM states ", inputs_, " and ", outputs_, " numbers, expected ", input_->numbers,
+                      " for #PARAM_IN ", input_->name, " and ", is_colour ? 3 : 1, " for #PARAM_OUT ", output_});
   if (output_ == "RGB_COLOR")
     collector_.emplace(channels());
   else
@@ -155,21 +155,21 @@ GONIO_INLINE void alta_reader::begin_rows() {
 GONIO_INLINE double alta_reader::polar_angle(double angle) const {
   // A rounded pi / 2 may be slightly larger than pi / 2.
   if (!(std::abs(angle) < std::numbers::pi / 2.0 + 1e-3))
-    place_.refuse({"a polar angle is ", shortest(angle), ", expected radians from -pi / 2 to pi / 2",
-                   std::abs(angle) <= 90.0 ? "; are these degrees?" : ""});
+    position_.refuse({"a polar angle is ", shortest(angle), ", expected radians from -pi / 2 to pi / 2",
+                      std::abs(angle) <= 90.0 ? "; are these degrees?" : ""});
   return angle;
 }
 
 GONIO_INLINE double alta_reader::azimuth(double angle) const {
   if (!(std::abs(angle) < 6.3))
-    place_.refuse({"an azimuth is ", shortest(angle), ", expected radians from -2 pi to 2 pi"});
+    position_.refuse({"an azimuth is ", shortest(angle), ", expected radians from -2 pi to 2 pi"});
   return angle;
 }
 
 GONIO_INLINE direction alta_reader::unit_vector(std::span<const double> numbers) const {
   const direction w(numbers[0], numbers[1], numbers[2]);
   const double length = norm_of(w.x(), w.y(), w.z());
-  if (!(std::abs(length - 1.0) <= 1e-3)) place_.refuse({"a vector has length ", shortest(length), ", expected 1"});
+  if (!(std::abs(length - 1.0) <= 1e-3)) position_.refuse({"a vector has length ", shortest(length), ", expected 1"});
   return w / length;
 }
 
@@ -207,17 +207,17 @@ GONIO_INLINE void alta_reader::read_row(std::string_view line) {
   numbers_.clear();
   split_at_blanks(line, words_);
   for (const std::string_view word : words_)
-    numbers_.push_back(read_number(word, place_, [&] { return message_of({"number ", numbers_.size() + 1}); }));
+    numbers_.push_back(read_number(word, position_, [&] { return message_of({"number ", numbers_.size() + 1}); }));
   const std::size_t needed = inputs_ + outputs_, most = needed + 2 * outputs_;  // with confidence intervals
   if (numbers_.size() < needed || numbers_.size() > most)
-    place_.refuse({numbers_.size(), " numbers, expected ", needed, " as in #DIM"});
+    position_.refuse({numbers_.size(), " numbers, expected ", needed, " as in #DIM"});
   const direction_pair pair = directions();
   if (!is_above_horizon(pair.wi) || !is_above_horizon(pair.wo)) return;
   const double factor = output_ == "INV_STERADIAN_COSINE_FACTOR" ? 1.0 / pair.wo.z() : 1.0;
   values_.clear();
   for (std::size_t i = inputs_; i < needed; ++i) {
     values_.push_back(factor * numbers_[i]);
-    require_float_range(values_.back(), place_);
+    require_float_range(values_.back(), position_);
   }
   collector_->add(pair, values_);
 }
@@ -228,9 +228,9 @@ namespace gonio::io {
 
 GONIO_INLINE bool looks_like_alta(std::string_view text) {
   text = without_byte_order_mark(text);
-  text_place place;
+  text_position position;
   bool has_dimensions = false, has_input = false;
-  for (std::string_view line; next_whole_line(text, place, line);) {
+  for (std::string_view line; next_whole_line(text, position, line);) {
     line = trimmed(line);
     has_dimensions |= line.starts_with("#DIM ") || line.starts_with("#DIM\t");
     has_input |= line.starts_with("#PARAM_IN ") || line.starts_with("#PARAM_IN\t");
@@ -241,10 +241,10 @@ GONIO_INLINE bool looks_like_alta(std::string_view text) {
 }
 
 GONIO_INLINE sample_set read_alta(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  detail::alta_reader reader(place);
+  text_position position{name, 0};
+  detail::alta_reader reader(position);
   text = without_byte_order_mark(text);
-  for (std::string_view line; next_whole_line(text, place, line);) reader.read(trimmed(line));
+  for (std::string_view line; next_whole_line(text, position, line);) reader.read(trimmed(line));
   return std::move(reader).samples().samples(name);
 }
 

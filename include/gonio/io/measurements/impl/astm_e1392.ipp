@@ -27,7 +27,7 @@ namespace gonio::io::detail {
 /// Reads a file line by line.
 class astm_reader {
  public:
-  explicit astm_reader(text_place& place) : place_(place) {}
+  explicit astm_reader(text_position& position) : position_(position) {}
 
   void read(std::string_view line);
 
@@ -44,7 +44,7 @@ class astm_reader {
 
   static constexpr std::array<std::string_view, 4> angle_names{"theta_i", "phi_i", "theta_s", "phi_s"};
 
-  text_place& place_;
+  text_position& position_;
   std::optional<double> points_;
   std::array<std::size_t, 4> angles_{};  ///< columns of the angles
   std::vector<std::size_t> values_;      ///< columns of the values
@@ -63,16 +63,16 @@ GONIO_INLINE void astm_reader::read(std::string_view line) {
 }
 
 GONIO_INLINE sample_collector astm_reader::samples() && {
-  if (!collector_) gonio::refuse({place_.name, ": ends before its line VARS, which names the columns"});
+  if (!collector_) gonio::refuse({position_.name, ": ends before its line VARS, which names the columns"});
   if (points_ && *points_ != static_cast<double>(rows_))
-    gonio::refuse({place_.name, ": has ", rows_, " lines of numbers, expected NUM_POINTS ", shortest(*points_)});
+    gonio::refuse({position_.name, ": has ", rows_, " lines of numbers, expected NUM_POINTS ", shortest(*points_)});
   return *std::move(collector_);
 }
 
 GONIO_INLINE void astm_reader::read_keyword(std::string_view line) {
   const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
   const std::string_view keyword = line.substr(0, end), value = trimmed(line.substr(end));
-  if (keyword == "NUM_POINTS") points_ = read_number(value, place_, [] { return "NUM_POINTS"; });
+  if (keyword == "NUM_POINTS") points_ = read_number(value, position_, [] { return "NUM_POINTS"; });
   if (keyword == "VARS") read_variables(value);
 }
 
@@ -81,7 +81,7 @@ GONIO_INLINE void astm_reader::read_variables(std::string_view names) {
   split_fields(names, all);
   for (std::size_t angle = 0; angle < angle_names.size(); ++angle) {
     if (std::ranges::count(all, angle_names[angle]) != 1)
-      place_.refuse({"VARS: expected one column ", angle_names[angle], " in ", in_quotes(names)});
+      position_.refuse({"VARS: expected one column ", angle_names[angle], " in ", in_quotes(names)});
     angles_[angle] = std::ranges::find(all, angle_names[angle]) - all.begin();
   }
   for (std::size_t column = 0; column < all.size(); ++column) {
@@ -90,7 +90,7 @@ GONIO_INLINE void astm_reader::read_variables(std::string_view names) {
     values_.push_back(column);
     of_values.push_back(all[column]);
   }
-  if (values_.empty()) place_.refuse("VARS: expected a column of values besides the angles");
+  if (values_.empty()) position_.refuse("VARS: expected a column of values besides the angles");
   collector_ = collector_of(of_values);
 }
 
@@ -107,49 +107,52 @@ GONIO_INLINE sample_collector astm_reader::collector_of(const std::vector<std::s
         name.ends_with("nm") && read_number(name.substr(0, name.size() - 2), wavelength) == nullptr;
     if (!is_wavelength && names.size() == 1 && !name.empty()) return sample_collector();
     if (!is_wavelength)
-      place_.refuse({"VARS: ", in_quotes(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
+      position_.refuse(
+          {"VARS: ", in_quotes(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
     wavelengths.push_back(wavelength);
   }
   try {
     return sample_collector(channels(wavelengths));
   } catch (const error& reason) {
-    place_.refuse({"VARS: ", reason.what()});
+    position_.refuse({"VARS: ", reason.what()});
   }
 }
 
 GONIO_INLINE double astm_reader::number(std::size_t column) const {
-  return read_number(fields_[column], place_, [&] { return "column " + in_quotes(std::string_view(names_[column])); });
+  return read_number(fields_[column], position_,
+                     [&] { return "column " + in_quotes(std::string_view(names_[column])); });
 }
 
 GONIO_INLINE direction astm_reader::read_direction(std::size_t angle) const {
   const double theta = number(angles_[angle]), phi = number(angles_[angle + 1]);
   // pi / 2 rounded to four digits may be slightly larger than pi / 2.
   if (!(theta >= 0.0 && theta < std::numbers::pi / 2.0 + 1e-3))
-    place_.refuse({"column '", angle_names[angle], "': ", shortest(theta), ", expected radians from 0 to pi / 2",
-                   theta > 1.6 && theta <= 90.0 ? "; are these degrees?" : ""});
+    position_.refuse({"column '", angle_names[angle], "': ", shortest(theta), ", expected radians from 0 to pi / 2",
+                      theta > 1.6 && theta <= 90.0 ? "; are these degrees?" : ""});
   if (!(std::abs(phi) < 6.3))
-    place_.refuse({"column '", angle_names[angle + 1], "': ", shortest(phi), ", expected radians from -2 pi to 2 pi"});
+    position_.refuse(
+        {"column '", angle_names[angle + 1], "': ", shortest(phi), ", expected radians from -2 pi to 2 pi"});
   return spherical_direction(theta, phi);
 }
 
 GONIO_INLINE void astm_reader::read_row(std::string_view line) {
   split_fields(line, fields_);
   if (fields_.size() != names_.size())
-    place_.refuse({fields_.size(), " fields, expected ", names_.size(), " as in the line VARS"});
+    position_.refuse({fields_.size(), " fields, expected ", names_.size(), " as in the line VARS"});
   reflectances_.clear();
   for (const std::size_t column : values_) {
     reflectances_.push_back(number(column));
-    require_float_range(reflectances_.back(), place_);
+    require_float_range(reflectances_.back(), position_);
   }
   collector_->add({read_direction(0), read_direction(2)}, reflectances_);
   ++rows_;
 }
 
 [[nodiscard]] GONIO_INLINE sample_collector collect_astm(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  astm_reader parser(place);
-  for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
-  return std::move(parser).samples();
+  text_position position{name, 0};
+  astm_reader reader(position);
+  for_each_line(text, position, [&](std::string_view line) { reader.read(line); });
+  return std::move(reader).samples();
 }
 
 }  // namespace gonio::io::detail
@@ -158,8 +161,8 @@ namespace gonio::io {
 
 GONIO_INLINE bool looks_like_astm_e1392(std::string_view text) {
   text = without_byte_order_mark(text).substr(0, 4096);
-  text_place place;
-  for (std::string_view line; next_line(text, place, line);)
+  text_position position;
+  for (std::string_view line; next_line(text, position, line);)
     if ((line.starts_with("VARS ") || line.starts_with("VARS\t")) && line.find("theta_i") != std::string_view::npos)
       return true;
   return false;

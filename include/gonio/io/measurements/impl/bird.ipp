@@ -44,7 +44,7 @@ struct bird_group {
 /// Converts the data of a file to samples.
 class bird_samples {
  public:
-  bird_samples(const bird_data& data, const text_place& place) : data_(data), place_(place) {}
+  bird_samples(const bird_data& data, const text_position& position) : data_(data), position_(position) {}
 
   [[nodiscard]] sample_collector make();
 
@@ -62,14 +62,14 @@ class bird_samples {
   [[nodiscard]] static double relative_uncertainty_of(const bird_group& group);
 
   const bird_data& data_;
-  const text_place& place_;
+  const text_position& position_;
   const bird_variable* wavelengths_ = nullptr;
   double nanometres_ = 1.0;  ///< per unit of the file's wavelengths
 };
 
 GONIO_INLINE const bird_variable& bird_samples::require(std::string_view variable) const {
   const bird_variable* found = data_.find(variable);
-  if (found == nullptr) gonio::refuse({place_.name, ": data.", variable, " is missing"});
+  if (found == nullptr) gonio::refuse({position_.name, ": data.", variable, " is missing"});
   return *found;
 }
 
@@ -77,7 +77,7 @@ GONIO_INLINE void bird_samples::require_count(std::string_view variable, std::si
   const std::size_t expected = require("BRDF").values.size();
   if (count != expected)
     gonio::refuse(
-        {place_.name, ": data.", variable, " has ", count, " values, expected ", expected, " as in data.BRDF"});
+        {position_.name, ": data.", variable, " has ", count, " values, expected ", expected, " as in data.BRDF"});
 }
 
 GONIO_INLINE double bird_samples::to_radians(std::string_view variable) const {
@@ -85,14 +85,14 @@ GONIO_INLINE double bird_samples::to_radians(std::string_view variable) const {
   if (unit == "rad") return 1.0;
   if (unit == "deg" || unit == "\xC2\xB0") return radians(1.0);
   gonio::refuse(
-      {place_.name, ": data.", variable, ": unit ", in_quotes(std::string_view(unit)), ", expected deg or rad"});
+      {position_.name, ": data.", variable, ": unit ", in_quotes(std::string_view(unit)), ", expected deg or rad"});
 }
 
 GONIO_INLINE void bird_samples::check_units() {
   const auto require_unit = [this](std::string_view variable, const std::string& unit, bool may_be_percent) {
     if (unit != "1/sr" && unit != "sr^-1" && !(may_be_percent && unit == "%"))
-      gonio::refuse({place_.name, ": data.", variable, ": unit ", in_quotes(std::string_view(unit)), ", expected sr^-1",
-                     may_be_percent ? " or %" : ""});
+      gonio::refuse({position_.name, ": data.", variable, ": unit ", in_quotes(std::string_view(unit)),
+                     ", expected sr^-1", may_be_percent ? " or %" : ""});
   };
   const bird_variable& brdf = require("BRDF");
   require_unit("BRDF", brdf.unit, false);
@@ -106,11 +106,11 @@ GONIO_INLINE void bird_samples::check_units() {
   wavelengths_ = of_light != nullptr ? of_light : seen;
   if (wavelengths_ == nullptr) return;
   if (of_light != nullptr && seen != nullptr && (of_light->unit != seen->unit || of_light->values != seen->values))
-    gonio::refuse({place_.name, ": data.wavelength_r differs from data.wavelength_i: fluorescence is not a BRDF"});
+    gonio::refuse({position_.name, ": data.wavelength_r differs from data.wavelength_i: fluorescence is not a BRDF"});
   const std::string& unit = wavelengths_->unit;
   if (unit != "nm" && unit != "\xCE\xBCm" && unit != "\xC2\xB5m")
     gonio::refuse(
-        {place_.name, ": wavelengths: unit ", in_quotes(std::string_view(unit)), ", expected nm or micrometres"});
+        {position_.name, ": wavelengths: unit ", in_quotes(std::string_view(unit)), ", expected nm or micrometres"});
   nanometres_ = unit == "nm" ? 1.0 : 1000.0;
 }
 
@@ -118,7 +118,7 @@ GONIO_INLINE double bird_samples::uncertainty_of(std::size_t measurement) const 
   const bird_variable &brdf = require("BRDF"), *of_each = data_.find("uBRDF");
   if (of_each == nullptr && !brdf.uncertainty) return 0.0;
   const double given = of_each != nullptr ? of_each->values[measurement] : *brdf.uncertainty;
-  if (!(given >= 0.0)) gonio::refuse({place_.name, ": an uncertainty of ", shortest(given), " is negative"});
+  if (!(given >= 0.0)) gonio::refuse({position_.name, ": an uncertainty of ", shortest(given), " is negative"});
   const std::string& unit = of_each != nullptr ? of_each->unit : brdf.uncertainty_unit;
   return unit == "%" ? std::abs(brdf.values[measurement]) * given / 100.0 : given;
 }
@@ -132,7 +132,7 @@ GONIO_INLINE direction bird_samples::direction_of(std::string_view theta, std::s
   const double polar = to_radians(theta) * require(theta).values[measurement];
   const double azimuth = to_radians(phi) * require(phi).values[measurement];
   if (!(polar >= 0.0 && polar < radians(90.1)) || !(std::abs(azimuth) < radians(360.1)))
-    gonio::refuse({place_.name, ": measurement ", measurement + 1, ": ", theta, " of ", shortest(degrees(polar)),
+    gonio::refuse({position_.name, ": measurement ", measurement + 1, ": ", theta, " of ", shortest(degrees(polar)),
                    " and ", phi, " of ", shortest(degrees(azimuth)), " degrees, expected 0 to 90 and 0 to 360"});
   return spherical_direction(polar, azimuth);
 }
@@ -143,7 +143,7 @@ GONIO_INLINE std::vector<bird_group> bird_samples::grouped() const {
   std::map<std::array<double, 4>, std::size_t> known;
   for (std::size_t k = 0; k < brdf.values.size(); ++k) {
     if (std::abs(brdf.values[k]) > double{std::numeric_limits<float>::max()})
-      gonio::refuse({place_.name, ": measurement ", k + 1, ": ", shortest(brdf.values[k]),
+      gonio::refuse({position_.name, ": measurement ", k + 1, ": ", shortest(brdf.values[k]),
                      " sr^-1 is outside the range of float"});
     const auto value_of = [&](std::string_view variable) { return require(variable).values[k]; };
     const std::array<double, 4> angles{value_of("theta_i"), value_of("phi_i"), value_of("theta_r"), value_of("phi_r")};
@@ -163,7 +163,7 @@ GONIO_INLINE void bird_samples::require_unpolarised(const bird_group& group) con
   for (const auto& [wavelength, mean] : group.spectrum)
     for (const double parameter : mean.stokes)
       if (!(std::abs(parameter) <= 1e-6 * mean.count))
-        gonio::refuse({place_.name, ": at theta_i ", rounded(group.pair.wi), " and theta_r ", rounded(group.pair.wo),
+        gonio::refuse({position_.name, ": at theta_i ", rounded(group.pair.wi), " and theta_r ", rounded(group.pair.wo),
                        " degrees, the states of polarization_i do not average to unpolarised light, "
                        "expected as much s as p"});
 }
@@ -177,7 +177,7 @@ GONIO_INLINE void bird_samples::add(const bird_group& group, double weight, samp
   if (wavelengths_ != nullptr) try {
       collector.use_wavelengths(wavelengths);
     } catch (const error& reason) {
-      gonio::refuse({place_.name, ": data.wavelength_i: ", reason.what()});
+      gonio::refuse({position_.name, ": data.wavelength_i: ", reason.what()});
     }
   collector.add(group.pair, values, weight);
 }
@@ -214,9 +214,9 @@ GONIO_INLINE sample_collector bird_samples::make() {
 }
 
 [[nodiscard]] GONIO_INLINE sample_collector collect_bird(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  const bird_data data = bird_reader(text, place).read();
-  return bird_samples(data, place).make();
+  text_position position{name, 0};
+  const bird_data data = bird_reader(text, position).read();
+  return bird_samples(data, position).make();
 }
 
 }  // namespace gonio::io::detail

@@ -48,7 +48,7 @@ struct bird_data {
 /// Reads a file key by key.
 class bird_reader {
  public:
-  bird_reader(std::string_view text, text_place& place) : json_(text, place), name_(place.name) {}
+  bird_reader(std::string_view text, text_position& position) : json_(text, position), name_(position.name) {}
 
   [[nodiscard]] bird_data read();
 

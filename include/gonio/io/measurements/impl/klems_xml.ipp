@@ -36,10 +36,10 @@ inline constexpr std::size_t most_patches = 4096;
 [[nodiscard]] GONIO_INLINE double number_of(const xml_element& in, std::string_view name, double lowest,
                                             double highest) {
   const xml_element found = in.first(name);
-  const text_place place = found.place(found.content());
+  const text_position position = found.position(found.content());
   const std::string tag = message_of({"<", name, ">"});
-  return require_between(read_number(trimmed(found.content()), place, [&] { return tag; }), tag, lowest, highest,
-                         place);
+  return require_between(read_number(trimmed(found.content()), position, [&] { return tag; }), tag, lowest, highest,
+                         position);
 }
 
 [[nodiscard]] GONIO_INLINE std::vector<klems_patch> read_basis(const xml_element& basis) {
@@ -48,21 +48,21 @@ inline constexpr std::size_t most_patches = 4096;
     const double theta = radians(number_of(ring, "Theta", 0.0, 90.0));
     const double count = number_of(ring, "nPhis", 1.0, static_cast<double>(most_patches));
     if (count != std::floor(count) || static_cast<double>(patches.size()) + count > static_cast<double>(most_patches))
-      ring.place(ring.content())
+      ring.position(ring.content())
           .refuse(
               {"<nPhis>: ", shortest(count), ", expected whole numbers, at most ", most_patches, " patches in all"});
     for (double k = 0.0; k < count; ++k) patches.push_back({theta, 2.0 * std::numbers::pi * k / count});
   }
-  if (patches.empty()) basis.place(basis.content()).refuse("the basis has no rings, expected <AngleBasisBlock>");
+  if (patches.empty()) basis.position(basis.content()).refuse("the basis has no rings, expected <AngleBasisBlock>");
   return patches;
 }
 
 /// Returns the patches of the basis with this name.
 [[nodiscard]] GONIO_INLINE std::vector<klems_patch> basis_named(const xml_element& definition, std::string_view name,
-                                                                const text_place& place) {
+                                                                const text_position& position) {
   for (const xml_element& each : definition.all("AngleBasis"))
     if (each.text("AngleBasisName") == name) return read_basis(each);
-  place.refuse({"there is no <AngleBasis> with the name ", in_quotes(name)});
+  position.refuse({"there is no <AngleBasis> with the name ", in_quotes(name)});
 }
 
 // ---- matrices ------------------------------------------------------------------------------------------------------
@@ -71,8 +71,8 @@ inline constexpr std::size_t most_patches = 4096;
 GONIO_INLINE double scattering_value(const xml_element& data, std::string_view word) {
   double number = 0.0;
   if (const char* wrong = read_number(word, number))
-    data.place(word).refuse({"<ScatteringData>: ", in_quotes(word), wrong});
-  if (std::abs(number) > double{std::numeric_limits<float>::max()}) require_float_range(number, data.place(word));
+    data.position(word).refuse({"<ScatteringData>: ", in_quotes(word), wrong});
+  if (std::abs(number) > double{std::numeric_limits<float>::max()}) require_float_range(number, data.position(word));
   return number;
 }
 
@@ -87,13 +87,13 @@ GONIO_INLINE double scattering_value(const xml_element& data, std::string_view w
     const std::string_view word = rest.substr(0, rest.find_first_of(between));
     const double number = scattering_value(data, word);
     if (numbers.size() == count)
-      data.place(word).refuse(
+      data.position(word).refuse(
           {"<ScatteringData> has more than ", count, " numbers, expected one for each pair of patches"});
     numbers.push_back(number);
     rest.remove_prefix(word.size());
   }
   if (numbers.size() != count)
-    data.place(rest).refuse(
+    data.position(rest).refuse(
         {"<ScatteringData> has ", numbers.size(), " numbers, expected ", count, ", one for each pair of patches"});
   return numbers;
 }
@@ -134,12 +134,12 @@ GONIO_INLINE sample_set read_klems_xml(std::string_view text, const std::string&
   const detail::xml_element file(text, name), definition = file.first("DataDefinition");
   const std::string_view structure = definition.text("IncidentDataStructure");
   if (structure != "Columns" && structure != "Rows")
-    definition.place(definition.content())
+    definition.position(definition.content())
         .refuse({"<IncidentDataStructure> ", in_quotes(structure), " is not supported, expected Columns or Rows"});
   const detail::xml_element block = detail::reflection_of(file, name, wanted), data = block.first("ScatteringData");
-  const text_place place = block.place(block.content());
-  const auto columns = detail::basis_named(definition, block.text("ColumnAngleBasis"), place);
-  const auto rows = detail::basis_named(definition, block.text("RowAngleBasis"), place);
+  const text_position position = block.position(block.content());
+  const auto columns = detail::basis_named(definition, block.text("ColumnAngleBasis"), position);
+  const auto rows = detail::basis_named(definition, block.text("RowAngleBasis"), position);
   const std::vector<double> matrix = detail::read_matrix(data, rows.size() * columns.size());
   const bool are_columns_incident = structure == "Columns";
   detail::sample_collector collector;

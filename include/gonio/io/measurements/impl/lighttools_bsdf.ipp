@@ -37,7 +37,7 @@ struct lighttools_block {
 /// Reads a file word by word.
 class lighttools_reader {
  public:
-  lighttools_reader(std::string_view text, text_place& place) : words_(text, place) {}
+  lighttools_reader(std::string_view text, text_position& position) : words_(text, position) {}
 
   [[nodiscard]] sample_set read();
 
@@ -81,10 +81,10 @@ GONIO_INLINE void lighttools_reader::read_header() {
     else if (key == "ScatterRadial")
       polar_angles_ = words_.read_list("ScatterRadial", 0.0, 180.0);
     else
-      words_.place().refuse({in_quotes(key), " is not a keyword of a LightTools BSDF file above DataBegin"});
+      words_.position().refuse({in_quotes(key), " is not a keyword of a LightTools BSDF file above DataBegin"});
   }
-  if (azimuths_.empty()) words_.place().refuse("ScatterAzimuth is missing above DataBegin");
-  if (polar_angles_.empty()) words_.place().refuse("ScatterRadial is missing above DataBegin");
+  if (azimuths_.empty()) words_.position().refuse("ScatterAzimuth is missing above DataBegin");
+  if (polar_angles_.empty()) words_.position().refuse("ScatterRadial is missing above DataBegin");
 }
 
 /// Reads the blocks of reflection: those of the front, or if there are none, those of the back.
@@ -94,8 +94,8 @@ GONIO_INLINE void lighttools_reader::read_blocks() {
     if (block.is_reflection) blocks_.push_back(std::move(block));
   }
   if (const std::string_view more = words_.peek(); !more.empty())
-    words_.place().refuse({in_quotes(more), " follows DataEnd, expected the end of the file"});
-  if (blocks_.empty()) gonio::refuse({words_.place().name, ": has no block of ScatterType BRDF"});
+    words_.position().refuse({in_quotes(more), " follows DataEnd, expected the end of the file"});
+  if (blocks_.empty()) gonio::refuse({words_.position().name, ": has no block of ScatterType BRDF"});
   if (std::ranges::any_of(blocks_, &lighttools_block::is_front))
     std::erase_if(blocks_, [](const lighttools_block& block) { return !block.is_front; });
 }
@@ -105,7 +105,7 @@ GONIO_INLINE lighttools_block lighttools_reader::read_block() {
   lighttools_block block;
   for (std::string_view key = words_.read("TIS"); key != "TIS"; key = words_.read("TIS")) read_keyword(key, block);
   static_cast<void>(words_.read_number("TIS"));
-  block.line = words_.place().line;
+  block.line = words_.position().line;
   read_values(block);
   return block;
 }
@@ -124,19 +124,19 @@ GONIO_INLINE void lighttools_reader::read_keyword(std::string_view keyword, ligh
   else if (keyword == "TristimulusValue")
     block.tristimulus = static_cast<int>(words_.read_one_of({"TrisX", "TrisY", "TrisZ"}));
   else
-    words_.place().refuse({in_quotes(keyword), " is not a keyword of a block, expected AOI, POI, Side, Wavelength, ",
-                           "ScatterType, TristimulusValue, TIS or DataEnd"});
+    words_.position().refuse({in_quotes(keyword), " is not a keyword of a block, expected AOI, POI, Side, Wavelength, ",
+                              "ScatterType, TristimulusValue, TIS or DataEnd"});
 }
 
 GONIO_INLINE void lighttools_reader::require_plane_of_incidence(double degrees) const {
   if (degrees != 0.0)
-    words_.place().refuse({"POI: ", shortest(degrees), ", expected a plane of incidence of 0 degrees"});
+    words_.position().refuse({"POI: ", shortest(degrees), ", expected a plane of incidence of 0 degrees"});
 }
 
 GONIO_INLINE void lighttools_reader::read_values(lighttools_block& block) {
   for (std::size_t i = 0; i < azimuths_.size() * polar_angles_.size(); ++i) {
     block.values.push_back(words_.read_number("a value"));
-    require_float_range(block.values.back(), words_.place());
+    require_float_range(block.values.back(), words_.position());
   }
 }
 
@@ -149,7 +149,7 @@ GONIO_INLINE double lighttools_reader::channel_of(const lighttools_block& block)
 
 GONIO_INLINE void lighttools_reader::refuse(const lighttools_block& block,
                                             std::initializer_list<message_part> what) const {
-  text_place{words_.place().name, block.line}.refuse(what);
+  text_position{words_.position().name, block.line}.refuse(what);
 }
 
 /// Returns the blocks by angle of incidence; all angles must have the same channels.
@@ -184,7 +184,7 @@ GONIO_INLINE sample_set lighttools_reader::samples() const {
   const std::map<double, channel_blocks> sorted = sorted_blocks();
   sample_collector collector = collector_of(sorted.begin()->second);
   for (const auto& [incidence, blocks] : sorted) add(collector, incidence, blocks);
-  return std::move(collector).samples(words_.place().name);
+  return std::move(collector).samples(words_.position().name);
 }
 
 GONIO_INLINE void lighttools_reader::add(sample_collector& to, double incidence, const channel_blocks& blocks) const {
@@ -208,8 +208,8 @@ GONIO_INLINE bool looks_like_lighttools_bsdf(std::string_view text) {
   constexpr std::array<std::string_view, 6> first_words{"Source",      "Symmetry",       "SpectralContent",
                                                         "ScatterType", "ScatterAzimuth", "ScatterRadial"},
       of_blocks{"AOI", "POI", "Side", "Wavelength", "ScatterType", "TristimulusValue"};
-  text_place place;
-  detail::word_reader words(text, place);
+  text_position position;
+  detail::word_reader words(text, position);
   if (std::ranges::find(first_words, words.peek()) == first_words.end()) return false;
   while (!words.peek().empty())
     if (words.read("DataBegin") == "DataBegin") return std::ranges::find(of_blocks, words.peek()) != of_blocks.end();
@@ -217,8 +217,8 @@ GONIO_INLINE bool looks_like_lighttools_bsdf(std::string_view text) {
 }
 
 GONIO_INLINE sample_set read_lighttools_bsdf(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  return detail::lighttools_reader(text, place).read();
+  text_position position{name, 0};
+  return detail::lighttools_reader(text, position).read();
 }
 
 GONIO_INLINE sample_set read_lighttools_bsdf(const std::filesystem::path& path) {

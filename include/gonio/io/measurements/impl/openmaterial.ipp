@@ -154,7 +154,7 @@ GONIO_INLINE std::string openmaterial_text(const std::vector<rgb>& colours, cons
 /// Reads a file row by row.
 class openmaterial_reader {
  public:
-  openmaterial_reader(std::string_view text, text_place& place) : json_(text, place), place_(place) {}
+  openmaterial_reader(std::string_view text, text_position& position) : json_(text, position), position_(position) {}
 
   [[nodiscard]] sample_collector read() {
     json_.open_object("the file");
@@ -165,7 +165,7 @@ class openmaterial_reader {
         json_.skip();
     }
     json_.finish();
-    if (!has_table_) gonio::refuse({place_.name, ": there is no brdf.lookupTable, expected a table of reflectance"});
+    if (!has_table_) gonio::refuse({position_.name, ": there is no brdf.lookupTable, expected a table of reflectance"});
     return samples();
   }
 
@@ -274,7 +274,7 @@ class openmaterial_reader {
   }
 
   json_reader json_;
-  const text_place& place_;
+  const text_position& position_;
   bool has_table_ = false;
   aperture receiver_;
   std::vector<row> rows_;
@@ -299,8 +299,8 @@ GONIO_INLINE bool looks_like_openmaterial(std::string_view text) {
 }
 
 GONIO_INLINE sample_set read_openmaterial(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  return detail::openmaterial_reader(text, place).read().samples(name);
+  text_position position{name, 0};
+  return detail::openmaterial_reader(text, position).read().samples(name);
 }
 
 GONIO_INLINE sample_set read_openmaterial(const std::filesystem::path& path) {

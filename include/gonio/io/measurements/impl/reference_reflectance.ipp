@@ -46,7 +46,7 @@ class reflectance_table {
   [[nodiscard]] bool has(std::size_t column) const {
     return std::ranges::count(columns_, column, &scaled_column::column) > 0;
   }
-  void add_angles(double theta_i, double theta_o, const text_place& place);
+  void add_angles(double theta_i, double theta_o, const text_position& position);
 
   std::vector<scaled_column> columns_;
   std::vector<double> theta_i_, theta_o_;  ///< degrees
@@ -66,23 +66,23 @@ GONIO_INLINE std::optional<reflectance_table::scaled_column> reflectance_table::
 }
 
 GONIO_INLINE void reflectance_table::read_header(const csv_reader& file) {
-  const text_place& place = file.place();
+  const text_position& position = file.position();
   for (const std::string_view field : file.fields()) {
     const auto found = column_of(written(field));
     if (!found)
-      place.refuse({"column ", in_quotes(field),
-                    " is unknown, expected theta_i, perhaps theta_o, and factor or "
-                    "factor_r,factor_g,factor_b; the header line looks ",
-                    description(file.dialect())});
-    if (has(found->column)) place.refuse({"column ", in_quotes(field), " appears twice"});
+      position.refuse({"column ", in_quotes(field),
+                       " is unknown, expected theta_i, perhaps theta_o, and factor or "
+                       "factor_r,factor_g,factor_b; the header line looks ",
+                       description(file.dialect())});
+    if (has(found->column)) position.refuse({"column ", in_quotes(field), " appears twice"});
     columns_.push_back(*found);
   }
   const bool has_channels = has(3) || has(4) || has(5);
   if (has_channels && has(2))
-    place.refuse("factors are given in two ways, expected factor or factor_r,factor_g,factor_b");
+    position.refuse("factors are given in two ways, expected factor or factor_r,factor_g,factor_b");
   for (const std::size_t column : {0, 2, 3, 4, 5}) {
     const bool is_needed = column == 0 || (column > 2) == has_channels;
-    if (is_needed && !has(column)) place.refuse({"column '", reflectance_columns[column], "' is missing"});
+    if (is_needed && !has(column)) position.refuse({"column '", reflectance_columns[column], "' is missing"});
   }
 }
 
@@ -91,15 +91,15 @@ GONIO_INLINE void reflectance_table::read_row(csv_reader& file) {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     const auto [column, scale] = columns_[i];
     if (const char* wrong = file.read_number(file.fields()[i], row[column]))
-      file.place().refuse({"column ", reflectance_columns[column], ": ", in_quotes(file.fields()[i]), wrong});
+      file.position().refuse({"column ", reflectance_columns[column], ": ", in_quotes(file.fields()[i]), wrong});
     row[column] *= scale;
   }
-  add_angles(row[0], row[1], file.place());
+  add_angles(row[0], row[1], file.position());
   factors_.push_back(has(2) ? rgb::Constant(row[2]) : rgb(row[3], row[4], row[5]));
 }
 
 /// The lines of the first theta_i determine the list of theta_o, which every theta_i must have.
-GONIO_INLINE void reflectance_table::add_angles(double theta_i, double theta_o, const text_place& place) {
+GONIO_INLINE void reflectance_table::add_angles(double theta_i, double theta_o, const text_position& position) {
   const std::size_t number = factors_.size();
   if (!has(1)) return theta_i_.push_back(theta_i);
   if (number == 0) theta_i_.push_back(theta_i);
@@ -107,9 +107,9 @@ GONIO_INLINE void reflectance_table::add_angles(double theta_i, double theta_o, 
   const std::size_t column = number % theta_o_.size();
   if (column == 0) theta_i_.push_back(theta_i);
   if (theta_i != theta_i_.back() || theta_o != theta_o_[column])
-    place.refuse({"theta_i ", shortest(theta_i), " and theta_o ", shortest(theta_o), ", expected ",
-                  shortest(theta_i_.back()), " and ", shortest(theta_o_[column]),
-                  ": every theta_i must have the same list of theta_o, in the same order"});
+    position.refuse({"theta_i ", shortest(theta_i), " and theta_o ", shortest(theta_o), ", expected ",
+                     shortest(theta_i_.back()), " and ", shortest(theta_o_[column]),
+                     ": every theta_i must have the same list of theta_o, in the same order"});
 }
 
 GONIO_INLINE capture::reference_reflectance reflectance_table::table() const {

@@ -33,12 +33,12 @@ struct rt300s_pose {
 
 /// Adds a reading; `scale` converts it to RT.
 GONIO_INLINE void add_reading(sample_collector& to, const rt300s_pose& pose, double value, double scale,
-                              const text_place& place) {
+                              const text_position& position) {
   const direction wi = spherical_direction(radians(pose.incidence), 0.0),
                   wo = spherical_direction(radians(pose.receiver), radians(pose.azimuth - 90.0));
   if (!is_above_horizon(wi) || !is_above_horizon(wo)) return;
   const double reflectance = scale * value * std::numbers::inv_pi / wo.z();
-  require_float_range(reflectance, place);
+  require_float_range(reflectance, position);
   to.add({wi, wo}, {&reflectance, 1});
 }
 
@@ -46,7 +46,8 @@ GONIO_INLINE void add_reading(sample_collector& to, const rt300s_pose& pose, dou
 
 class rt300s_reader {
  public:
-  rt300s_reader(std::string_view text, text_place& place) : text_(without_byte_order_mark(text)), place_(place) {}
+  rt300s_reader(std::string_view text, text_position& position)
+      : text_(without_byte_order_mark(text)), position_(position) {}
 
   [[nodiscard]] sample_collector read();
 
@@ -58,7 +59,7 @@ class rt300s_reader {
   [[nodiscard]] double angle(std::string_view field, std::string_view what, double lowest, double highest) const;
 
   std::string_view text_;
-  text_place& place_;
+  text_position& position_;
   std::vector<std::string_view> fields_;
   std::optional<double> incidence_;
   std::vector<double> receivers_;  ///< degrees, for each column
@@ -69,7 +70,7 @@ class rt300s_reader {
 /// Moves to the next line that is not blank, and drops empty fields at its end.
 GONIO_INLINE bool rt300s_reader::next() {
   std::string_view line;
-  if (!next_whole_line(text_, place_, line)) return false;
+  if (!next_whole_line(text_, position_, line)) return false;
   split_fields(line, fields_, '\t');
   while (fields_.size() > 1 && fields_.back().empty()) fields_.pop_back();
   return true;
@@ -77,29 +78,29 @@ GONIO_INLINE bool rt300s_reader::next() {
 
 GONIO_INLINE double rt300s_reader::angle(std::string_view field, std::string_view what, double lowest,
                                          double highest) const {
-  const double number = read_number(field, place_, [&] { return std::string(what); });
-  return require_between(number, what, lowest, highest, place_);
+  const double number = read_number(field, position_, [&] { return std::string(what); });
+  return require_between(number, what, lowest, highest, position_);
 }
 
 GONIO_INLINE sample_collector rt300s_reader::read() {
   while (next()) read_line();
-  if (!has_type_) gonio::refuse({place_.name, ": is empty, expected a line DataType: ", rt300s_type});
+  if (!has_type_) gonio::refuse({position_.name, ": is empty, expected a line DataType: ", rt300s_type});
   return std::move(collector_);
 }
 
 GONIO_INLINE void rt300s_reader::read_line() {
   const std::string_view key = fields_.front(), value = fields_.size() > 1 ? fields_[1] : "";
   if (key == "DataType:") {
-    if (value != rt300s_type) place_.refuse({"DataType: ", in_quotes(value), ", expected ", rt300s_type});
+    if (value != rt300s_type) position_.refuse({"DataType: ", in_quotes(value), ", expected ", rt300s_type});
     has_type_ = true;
     is_in_table_ = false;
     incidence_.reset();
   } else if (!has_type_) {
-    place_.refuse({in_quotes(key), ", expected DataType: ", rt300s_type});
+    position_.refuse({in_quotes(key), ", expected DataType: ", rt300s_type});
   } else if (key == "Incidence:") {
     incidence_ = angle(value, "Incidence (degrees)", 0.0, 90.0);
   } else if (key == "Raw data") {
-    if (!incidence_) place_.refuse("there is no line Incidence above the table");
+    if (!incidence_) position_.refuse("there is no line Incidence above the table");
     is_in_table_ = true;
     receivers_.clear();
   } else if (is_in_table_ && receivers_.empty()) {
@@ -107,26 +108,26 @@ GONIO_INLINE void rt300s_reader::read_line() {
   } else if (is_in_table_) {
     read_row();
   } else if (!key.ends_with(':')) {
-    place_.refuse({in_quotes(key), ", expected a name with a colon, or 'Raw data'"});
+    position_.refuse({in_quotes(key), ", expected a name with a colon, or 'Raw data'"});
   }
 }
 
 GONIO_INLINE void rt300s_reader::read_receivers() {
   if (!fields_.front().empty() || fields_.size() < 2)
-    place_.refuse({in_quotes(fields_.front()), ", expected an empty field and the receiver's angles"});
+    position_.refuse({in_quotes(fields_.front()), ", expected an empty field and the receiver's angles"});
   for (std::size_t i = 1; i < fields_.size(); ++i)
     receivers_.push_back(angle(fields_[i], "the receiver's angle (degrees)", -90.0, 90.0));
 }
 
 GONIO_INLINE void rt300s_reader::read_row() {
   if (fields_.size() != receivers_.size() + 1)
-    place_.refuse({fields_.size(), fields_.size() == 1 ? " field" : " fields", ", expected an azimuth and ",
-                   receivers_.size(), receivers_.size() == 1 ? " value" : " values"});
+    position_.refuse({fields_.size(), fields_.size() == 1 ? " field" : " fields", ", expected an azimuth and ",
+                      receivers_.size(), receivers_.size() == 1 ? " value" : " values"});
   rt300s_pose pose{.azimuth = angle(fields_.front(), "the azimuth (degrees)", -360.0, 360.0), .incidence = *incidence_};
   for (std::size_t i = 0; i < receivers_.size(); ++i) {
     pose.receiver = receivers_[i];
-    const double value = read_number(fields_[i + 1], place_, [] { return "a value"; });
-    add_reading(collector_, pose, value, 0.01, place_);
+    const double value = read_number(fields_[i + 1], position_, [] { return "a value"; });
+    add_reading(collector_, pose, value, 0.01, position_);
   }
 }
 
@@ -143,7 +144,7 @@ GONIO_INLINE void rt300s_reader::read_row() {
       continue;
     }
     if (const char* wrong = sheet.read_number(field, number))
-      sheet.place().refuse({name, ": ", in_quotes(field), wrong});
+      sheet.position().refuse({name, ": ", in_quotes(field), wrong});
     numbers.emplace_back(number);
   }
   return numbers;
@@ -161,27 +162,27 @@ GONIO_INLINE void rt300s_reader::read_row() {
     if (key == "RT") readings = sheet_row(sheet, key);
   }
   if (readings.empty()) gonio::refuse({name, ": has no row RT"});
-  const text_place& place = sheet.place();
+  const text_position& position = sheet.position();
   if (azimuths.empty() || incidences.empty() || receivers.empty())
-    place.refuse("expected the rows Azimuth, Incidence and Receive above the row RT");
+    position.refuse("expected the rows Azimuth, Incidence and Receive above the row RT");
   sample_collector collector;
   for (std::size_t i = 0; i < readings.size(); ++i) {
     if (!readings[i]) continue;
     if (!azimuths[i] || !incidences[i] || !receivers[i])
-      place.refuse({"reading ", i + 1, " has RT, but not all three angles"});
-    const rt300s_pose pose{require_between(*azimuths[i], "Azimuth (degrees)", -360.0, 360.0, place),
-                           require_between(*incidences[i], "Incidence (degrees)", 0.0, 90.0, place),
-                           require_between(*receivers[i], "Receive (degrees)", -90.0, 90.0, place)};
-    add_reading(collector, pose, *readings[i], 1.0, place);
+      position.refuse({"reading ", i + 1, " has RT, but not all three angles"});
+    const rt300s_pose pose{require_between(*azimuths[i], "Azimuth (degrees)", -360.0, 360.0, position),
+                           require_between(*incidences[i], "Incidence (degrees)", 0.0, 90.0, position),
+                           require_between(*receivers[i], "Receive (degrees)", -90.0, 90.0, position)};
+    add_reading(collector, pose, *readings[i], 1.0, position);
   }
   return collector;
 }
 
 [[nodiscard]] GONIO_INLINE bool is_rt300s_sheet(std::string_view text) {
-  text_place place;
+  text_position position;
   std::string_view line;
   text = without_byte_order_mark(text);
-  if (!next_whole_line(text, place, line)) return false;
+  if (!next_whole_line(text, position, line)) return false;
   std::vector<std::string_view> fields;
   if (dialect_of(line).split(line, fields) != nullptr || fields.size() < 2) return false;
   return fields[0] == "Method" && fields[1].starts_with("BRDF");
@@ -192,17 +193,17 @@ GONIO_INLINE void rt300s_reader::read_row() {
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_rt300s(std::string_view text) {
-  text_place place;
+  text_position position;
   std::string_view rest = without_byte_order_mark(text), line;
-  if (!next_whole_line(rest, place, line)) return false;
+  if (!next_whole_line(rest, position, line)) return false;
   const bool is_text = line.starts_with("DataType:") && line.find(detail::rt300s_type) != std::string_view::npos;
   return is_text || detail::is_rt300s_sheet(text);
 }
 
 GONIO_INLINE sample_set read_rt300s(std::string_view text, const std::string& name) {
   if (detail::is_rt300s_sheet(text)) return detail::collect_rt300s_sheet(text, name).samples(name);
-  text_place place{name, 0};
-  return detail::rt300s_reader(text, place).read().samples(name);
+  text_position position{name, 0};
+  return detail::rt300s_reader(text, position).read().samples(name);
 }
 
 GONIO_INLINE sample_set read_rt300s(const std::filesystem::path& path) {

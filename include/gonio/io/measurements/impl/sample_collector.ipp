@@ -21,15 +21,15 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void require_float_range(double reflectance, const text_place& place) {
+GONIO_INLINE void require_float_range(double reflectance, const text_position& position) {
   if (std::abs(reflectance) > double{std::numeric_limits<float>::max()})
-    place.refuse({shortest(reflectance), " sr^-1 is outside the range of float"});
+    position.refuse({shortest(reflectance), " sr^-1 is outside the range of float"});
 }
 
 GONIO_INLINE double require_between(double number, std::string_view name, double lowest, double highest,
-                                    const text_place& place) {
+                                    const text_position& position) {
   if (!(number >= lowest && number <= highest))
-    place.refuse({name, ": ", shortest(number), ", expected from ", shortest(lowest), " to ", shortest(highest)});
+    position.refuse({name, ": ", shortest(number), ", expected from ", shortest(lowest), " to ", shortest(highest)});
   return number;
 }
 

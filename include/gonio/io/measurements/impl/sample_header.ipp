@@ -64,7 +64,7 @@ namespace gonio::io::detail {
   return nullptr;
 }
 
-/// The number of letters up to which a name in a file is compared with the columns' names.
+/// Longer names in a file are not compared with the columns' names.
 inline constexpr std::size_t longest_name = 40;
 
 // ---- the header line -----------------------------------------------------------------------------------------------
@@ -99,37 +99,37 @@ inline constexpr std::size_t longest_name = 40;
 [[gnu::cold]] GONIO_INLINE void sample_header::read(csv_reader& file, const sample_reading& reading, bool needs_value,
                                                     std::span<const stated_angle> stated) {
   dialect_ = file.dialect();
-  const text_place place = file.place();
+  const text_position position = file.position();
   double number = 0.0;
   csv_dialect of_numbers = dialect_;
   if (of_numbers.read_number(file.fields().front(), number) == nullptr)
-    place.refuse(
+    position.refuse(
         {"there is no header line above the numbers, expected one like theta_i,phi_i,theta_o,phi_o,r,g,b (text "
          "after # is a comment); the line looks ",
          description(dialect_)});
   for (const column_name& each : reading.columns)
     if (column_named(each.column) == ignored)
-      place.refuse({"samples have no column ", in_quotes(each.column), " for ", in_quotes(each.in_file),
-                    " of the file, expected theta_i, value or another known column"});
+      position.refuse({"samples have no column ", in_quotes(each.column), " for ", in_quotes(each.in_file),
+                       " of the file, expected theta_i, value or another known column"});
   std::vector<written_column> names;
   for (const std::string_view field : file.fields()) names.push_back(written(field));
   matrix_ = matrix_of(file.fields(), [&](std::string_view name) { return find_column(name, reading); });
   if (file.next_if(are_units))
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i].unit.empty()) names[i].unit = unit_of(file.fields()[i]);
-  if (matrix_) return read_matrix(names, place);
-  for (const written_column& each : names) add(each, reading, place);
+  if (matrix_) return read_matrix(names, position);
+  for (const written_column& each : names) add(each, reading, position);
   ignore_tristimulus(names);
-  require_named(reading, place);
+  require_named(reading, position);
   find_stated(stated);
-  find_directions(place);
-  find_values(needs_value, place);
-  find_weights(place);
+  find_directions(position);
+  find_values(needs_value, position);
+  find_weights(position);
 }
 
 /// The first column of a matrix has the angle of each row; all other columns have values.
 [[gnu::cold]] GONIO_INLINE void sample_header::read_matrix(const std::vector<written_column>& names,
-                                                           const text_place& place) {
+                                                           const text_position& position) {
   columns_.assign(names.size(), grey_group.first);
   columns_.front() = matrix_->down;
   directions_ = angle_group;
@@ -137,7 +137,7 @@ inline constexpr std::size_t longest_name = 40;
   is_in_plane_ = true;
   for (std::size_t i = 1; i < names.size(); ++i)
     if (unit_named(names[i].unit) == column_unit::percent)
-      return quantity_.state_percent_signs("the line of units", place);
+      return quantity_.state_percent_signs("the line of units", position);
 }
 
 /// Adds the stated angles that have no column. Adds an azimuth only if the other azimuth has a column; otherwise the
@@ -156,17 +156,17 @@ inline constexpr std::size_t longest_name = 40;
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::add(const written_column& written, const sample_reading& reading,
-                                                   const text_place& place) {
+                                                   const text_position& position) {
   if (const column_name* renamed = find_renamed(written, reading.columns)) {
     written_column named = written;
     const std::size_t column = column_named(renamed->column);
     if (!fits(unit_named(named.unit), column)) named.unit.clear();
-    if (add_known(named, {"", column}, place)) return;
+    if (add_known(named, {"", column}, position)) return;
   } else if (const known_name* known = find_known(written.name)) {
     bool is_another = false;
     for (const column_name& each : reading.columns) is_another |= each.column == sample_columns[known->column];
-    if (!is_another && add_known(written, *known, place)) return;
-  } else if (add_wavelength(written, place)) {
+    if (!is_another && add_known(written, *known, position)) return;
+  } else if (add_wavelength(written, position)) {
     return;
   }
   columns_.push_back(ignored);
@@ -175,7 +175,7 @@ inline constexpr std::size_t longest_name = 40;
 
 /// Adds a column with a known name. Returns false if its unit does not fit.
 [[gnu::cold]] GONIO_INLINE bool sample_header::add_known(const written_column& written, const known_name& known,
-                                                         const text_place& place) {
+                                                         const text_position& position) {
   const std::size_t column = known.column;
   const column_unit unit = unit_named(written.unit);
   if (!fits(unit, column)) return false;
@@ -187,23 +187,24 @@ inline constexpr std::size_t longest_name = 40;
   const std::string_view name = sample_columns[column];
   const bool is_synonym = written.text != name;
   if (has(column))
-    place.refuse({"column ", text, is_synonym ? ", which is " : "", is_synonym ? name : "", is_synonym ? "," : "",
-                  " appears twice"});
+    position.refuse({"column ", text, is_synonym ? ", which is " : "", is_synonym ? name : "", is_synonym ? "," : "",
+                     " appears twice"});
   columns_.push_back(column);
   if (known.is_relative) relative_azimuth_ = written.text;
   if (unit == column_unit::radians) in_radians_.push_back(column);
-  if (known.quantity) quantity_.state(*known.quantity, message_of({"the name of column ", text}), place);
-  if (unit == column_unit::percent) quantity_.state_percent_signs(message_of({"the unit of column ", text}), place);
+  if (known.quantity) quantity_.state(*known.quantity, message_of({"the name of column ", text}), position);
+  if (unit == column_unit::percent) quantity_.state_percent_signs(message_of({"the unit of column ", text}), position);
   return true;
 }
 
 /// Adds a column named by its wavelength. Returns false if the name is not a wavelength.
-[[gnu::cold]] GONIO_INLINE bool sample_header::add_wavelength(const written_column& written, const text_place& place) {
+[[gnu::cold]] GONIO_INLINE bool sample_header::add_wavelength(const written_column& written,
+                                                              const text_position& position) {
   const double nanometres = wavelength_named(written);
   if (nanometres == 0.0) return false;
   if (!wavelengths_.empty() && !(nanometres > wavelengths_.back()))
-    place.refuse({"column ", in_quotes(written.text), " follows the column of ", shortest(wavelengths_.back()),
-                  " nm, expected wavelengths that ascend without repeats"});
+    position.refuse({"column ", in_quotes(written.text), " follows the column of ", shortest(wavelengths_.back()),
+                     " nm, expected wavelengths that ascend without repeats"});
   wavelengths_.push_back(nanometres);
   columns_.push_back(ignored + wavelengths_.size());
   return true;
@@ -216,13 +217,13 @@ inline constexpr std::size_t longest_name = 40;
 
 /// Throws gonio::error if a column named by the caller is missing.
 [[gnu::cold]] GONIO_INLINE void sample_header::require_named(const sample_reading& reading,
-                                                             const text_place& place) const {
+                                                             const text_position& position) const {
   for (const column_name& each : reading.columns)
     if (!has(column_named(each.column)))
-      place.refuse({"there is no column ", in_quotes(each.in_file), " for ", each.column, "; ", as_it_looks()});
+      position.refuse({"there is no column ", in_quotes(each.in_file), " for ", each.column, "; ", as_it_looks()});
 }
 
-[[gnu::cold]] GONIO_INLINE void sample_header::find_directions(const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void sample_header::find_directions(const text_position& position) {
   int groups = 0;
   for (const column_group& group : {half_difference_group, angle_group, vector_group}) {
     if (!has_any(group)) continue;
@@ -230,45 +231,46 @@ inline constexpr std::size_t longest_name = 40;
     ++groups;
   }
   if (groups == 0)
-    place.refuse({"there are no columns of directions, expected theta_h,theta_d,phi_d or ",
-                  "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z; ", as_it_looks()});
-  if (groups > 1) place.refuse("directions are given in more than one way, expected one of them");
+    position.refuse({"there are no columns of directions, expected theta_h,theta_d,phi_d or ",
+                     "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z; ", as_it_looks()});
+  if (groups > 1) position.refuse("directions are given in more than one way, expected one of them");
   is_in_plane_ = directions_.first == angle_group.first && !has(4) && !has(6);
   if (!relative_azimuth_.empty() && has(4))
-    place.refuse({in_quotes(relative_azimuth_),
-                  " is read as phi_o - phi_i, but there is a column phi_i, expected one of "
-                  "them"});
-  if (!is_in_plane_ && relative_azimuth_.empty()) return require(directions_, place);
+    position.refuse({in_quotes(relative_azimuth_),
+                     " is read as phi_o - phi_i, but there is a column phi_i, expected one of "
+                     "them"});
+  if (!is_in_plane_ && relative_azimuth_.empty()) return require(directions_, position);
   for (const std::size_t polar : {std::size_t{3}, std::size_t{5}})
-    if (!knows(polar)) refuse_missing(polar, place);
+    if (!knows(polar)) refuse_missing(polar, position);
   if (!is_in_plane_) return;
   // A misspelt azimuth does not count as an absent one.
   for (const written_column& each : extra_)
     for (const std::size_t azimuth : {std::size_t{4}, std::size_t{6}})
       if (each.name.find("phi") != std::string::npos || each.name.find("azim") != std::string::npos ||
           nearest_word(sample_columns[azimuth], {each.name}))
-        refuse_missing(azimuth, place);
+        refuse_missing(azimuth, position);
 }
 
-[[gnu::cold]] GONIO_INLINE void sample_header::find_values(bool needs_value, const text_place& place) {
-  take_r_for_value(place);
+[[gnu::cold]] GONIO_INLINE void sample_header::find_values(bool needs_value, const text_position& position) {
+  use_r_as_value(position);
   const bool is_tristimulus = has_any(tristimulus_group);
   const bool is_grey = has_any(grey_group), is_colour = has_any(colour_group), is_spectral = !wavelengths_.empty();
   if (int{is_grey} + int{is_colour} + int{is_spectral} > 1)
-    place.refuse({"reflectance is given in two ways, expected r,g,b or value",
-                  is_spectral ? " or columns of wavelengths, such as " : "", is_spectral ? name_of(ignored + 1) : ""});
+    position.refuse({"reflectance is given in two ways, expected r,g,b or value",
+                     is_spectral ? " or columns of wavelengths, such as " : "",
+                     is_spectral ? name_of(ignored + 1) : ""});
   if (is_grey) values_ = grey_group;
   if (is_spectral) values_ = {ignored + 1, wavelengths_.size()};
   if (is_tristimulus) values_ = tristimulus_group;
   if (!is_grey && !is_spectral && !is_tristimulus && (is_colour || needs_value)) {
-    require(colour_group, place);
+    require(colour_group, position);
     values_ = colour_group;
   }
   has_wavelength_ = has(wavelength_column);
   if (has_wavelength_ && values_.count == 3 && !is_spectral)
-    place.refuse({is_tristimulus ? "X,Y,Z" : "r,g,b", " cannot have a wavelength, expected value"});
+    position.refuse({is_tristimulus ? "X,Y,Z" : "r,g,b", " cannot have a wavelength, expected value"});
   if (has_wavelength_ && is_spectral)
-    place.refuse({"the file has a column wavelength and ", name_of(ignored + 1), ", expected one of them"});
+    position.refuse({"the file has a column wavelength and ", name_of(ignored + 1), ", expected one of them"});
 }
 
 /// X, Y and Z are tristimulus values only if all three are present and there are no other values.
@@ -284,24 +286,24 @@ inline constexpr std::size_t longest_name = 40;
 }
 
 /// A column R without G and B is not red; with percent signs it is a reflectance factor.
-[[gnu::cold]] GONIO_INLINE void sample_header::take_r_for_value(const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void sample_header::use_r_as_value(const text_position& position) {
   const auto r = std::ranges::find(columns_, colour_group.first);
   if (r == columns_.end() || has(colour_group.first + 1) || has(colour_group.first + 2) || has_any(grey_group)) return;
   if (quantity_.quantity() != sample_quantity::percent)
-    place.refuse(
+    position.refuse(
         {"column 'g' is missing, expected r,g,b, or value for one channel, or columns such as 400nm; if the "
          "column R is the only value, give --columns value=R; the header line looks ",
          description(dialect_)});
   *r = grey_group.first;
 }
 
-[[gnu::cold]] GONIO_INLINE void sample_header::find_weights(const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void sample_header::find_weights(const text_position& position) {
   if (!has_any(channel_weight_group)) return;
   if (has_any(weight_group))
-    place.refuse("weights are given in two ways, expected weight or weight_r,weight_g,weight_b");
+    position.refuse("weights are given in two ways, expected weight or weight_r,weight_g,weight_b");
   if (!wavelengths_.empty())
-    place.refuse("samples at wavelengths have one weight, expected weight, not one for each channel");
-  require(channel_weight_group, place);
+    position.refuse("samples at wavelengths have one weight, expected weight, not one for each channel");
+  require(channel_weight_group, position);
   weights_ = channel_weight_group;
 }
 
@@ -311,9 +313,9 @@ inline constexpr std::size_t longest_name = 40;
   return false;
 }
 
-[[gnu::cold]] GONIO_INLINE void sample_header::require(const column_group& group, const text_place& place) const {
+[[gnu::cold]] GONIO_INLINE void sample_header::require(const column_group& group, const text_position& position) const {
   for (std::size_t column = group.first; column < group.first + group.count; ++column)
-    if (!knows(column)) refuse_missing(column, place);
+    if (!knows(column)) refuse_missing(column, position);
 }
 
 /// Does the file have this column, or state its angle for all samples?
@@ -321,7 +323,7 @@ inline constexpr std::size_t longest_name = 40;
   return has(column) || std::ranges::find(stated_, column, &stated_angle::column) != stated_.end();
 }
 
-[[gnu::cold]] GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_place& place) const {
+[[gnu::cold]] GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_position& position) const {
   std::vector<std::string> names;
   for (const written_column& each : extra_)
     if (each.name.size() <= longest_name) names.push_back(each.name);
@@ -330,8 +332,8 @@ inline constexpr std::size_t longest_name = 40;
   if (const auto near = nearest_word(name, names))
     for (const written_column& each : extra_)
       if (each.name == *near)
-        place.refuse({"column '", name, "' is missing: perhaps it is ", in_quotes(each.text), "; ", looks});
-  place.refuse(
+        position.refuse({"column '", name, "' is missing: perhaps it is ", in_quotes(each.text), "; ", looks});
+  position.refuse(
       {"column '", name, "' is missing",
        colour_group.has(column) ? ", expected r,g,b, or value for one channel, or columns such as 400nm; " : "; ",
        looks});

@@ -46,27 +46,28 @@ GONIO_INLINE double brdf_factor(sample_quantity quantity, const direction& wo) n
 namespace gonio::io::detail {
 
 [[gnu::cold]] GONIO_INLINE void stated_quantity::state(sample_quantity quantity, const std::string& by,
-                                                       const text_place& place) {
+                                                       const text_position& position) {
   if (has_percent_signs_ && quantity == sample_quantity::reflectance_factor) return;
   if (quantity_ && *quantity_ != quantity)
-    place.refuse({"the values are ", name_of(*quantity_), " according to ", by_, ", but ", name_of(quantity),
-                  " according to ", by, ", expected one quantity"});
+    position.refuse({"the values are ", name_of(*quantity_), " according to ", by_, ", but ", name_of(quantity),
+                     " according to ", by, ", expected one quantity"});
   if (!quantity_) by_ = by;
   quantity_ = quantity;
 }
 
-[[gnu::cold]] GONIO_INLINE void stated_quantity::state_percent_signs(const std::string& by, const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void stated_quantity::state_percent_signs(const std::string& by,
+                                                                     const text_position& position) {
   if (quantity_ == sample_quantity::reflectance_factor) quantity_ = sample_quantity::percent;
-  state(sample_quantity::percent, by, place);
+  state(sample_quantity::percent, by, position);
   has_percent_signs_ = true;
 }
 
-[[gnu::cold]] GONIO_INLINE void stated_quantity::state(const stated_quantity& other, const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void stated_quantity::state(const stated_quantity& other, const text_position& position) {
   if (!other.quantity_) return;
   if (other.has_percent_signs_)
-    state_percent_signs(other.by_, place);
+    state_percent_signs(other.by_, position);
   else
-    state(*other.quantity_, other.by_, place);
+    state(*other.quantity_, other.by_, position);
 }
 
 }  // namespace gonio::io::detail

@@ -29,7 +29,7 @@ namespace gonio::io::detail {
                                                     const sample_reading& reading)
     : csv_(text, name), needs_value_(needs_value), reading_(reading), sign_(reading.sign) {
   numbers_[weight_group.first] = 1.0;
-  if (reading.quantity) quantity_.state(*reading.quantity, "the requested quantity (--quantity)", csv_.place());
+  if (reading.quantity) quantity_.state(*reading.quantity, "the requested quantity (--quantity)", csv_.position());
 }
 
 GONIO_INLINE bool sample_rows::next() {
@@ -68,28 +68,28 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
   if (entry.key == "source-half-angle") return read_half_angle(half_angle_group.first, entry);
   if (entry.key == "receiver-half-angle") return read_half_angle(half_angle_group.first + 1, entry);
   if (entry.key != "quantity") return;
-  const text_place& place = csv_.place();
-  if (rows_ > 0) place.refuse("the comment with the quantity is below a sample, expected above the first");
+  const text_position& position = csv_.position();
+  if (rows_ > 0) position.refuse("the comment with the quantity is below a sample, expected above the first");
   const auto quantity = quantity_named(entry.value);
   if (!quantity)
-    place.refuse({"the quantity ", in_quotes(entry.value),
-                  " is unknown, expected brdf, brdf-cosine, reflectance-factor or percent"});
-  quantity_.state(*quantity, message_of({"the comment in line ", place.line}), place);
+    position.refuse({"the quantity ", in_quotes(entry.value),
+                     " is unknown, expected brdf, brdf-cosine, reflectance-factor or percent"});
+  quantity_.state(*quantity, message_of({"the comment in line ", position.line}), position);
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_sign(std::string_view value) {
   if (value != "light" && value != "mirror")
-    csv_.place().refuse({"theta-o-sign ", in_quotes(value), " is unknown, expected light or mirror"});
+    csv_.position().refuse({"theta-o-sign ", in_quotes(value), " is unknown, expected light or mirror"});
   const theta_o_sign stated = value == "light" ? theta_o_sign::light : theta_o_sign::mirror;
   if (sign_.value_or(stated) != stated)
-    csv_.place().refuse({"the file says theta-o-sign ", value, ", but --theta-o-sign contradicts it"});
+    csv_.position().refuse({"the file says theta-o-sign ", value, ", but --theta-o-sign contradicts it"});
   sign_ = stated;
 }
 
 /// Sets the half angle of all lines below the comment, unless the file has a column for it.
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_half_angle(std::size_t column, const comment_entry& entry) {
   if (const char* wrong = csv_.read_number(entry.value, numbers_[column]); wrong != nullptr)
-    csv_.place().refuse({entry.key, ": ", in_quotes(entry.value), wrong, ", expected degrees"});
+    csv_.position().refuse({entry.key, ": ", in_quotes(entry.value), wrong, ", expected degrees"});
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_stated_angle(std::string_view line) {
@@ -110,11 +110,11 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_header() {
   find_header();
   if (!csv_.next([this](std::string_view text) { read_comment(text); }))
-    gonio::refuse({csv_.place().name, ": is empty, expected a header line that names the columns"});
+    gonio::refuse({csv_.position().name, ": is empty, expected a header line that names the columns"});
   for (const std::string_view line : csv_.passed_over()) read_stated_angle(line);
   header_.read(csv_, reading_, needs_value_, stated_angles_);
   cell_ = header_.columns().size();
-  quantity_.state(header_.quantity(), csv_.place());
+  quantity_.state(header_.quantity(), csv_.position());
   numbers_.resize(sample_columns.size() + 1 + header_.wavelengths().size());
   if (header_.wavelengths().size() == 1) wavelength_ = header_.wavelengths().front();
 }
@@ -161,9 +161,9 @@ GONIO_INLINE bool sample_rows::has_value() {
     if (++missing_ > 1) return false;
     double number = 0.0;
     const char* wrong = csv_.read_number(field, number);
-    first_missing_ = message_of({"no value (line ", csv_.place().line, ": ", in_quotes(field), ")"});
+    first_missing_ = message_of({"no value (line ", csv_.position().line, ": ", in_quotes(field), ")"});
     missing_message_ = message_of(
-        {"line ", csv_.place().line, ": column ", header_.name_of(columns[i]), ": ", in_quotes(field), wrong});
+        {"line ", csv_.position().line, ": column ", header_.name_of(columns[i]), ": ", in_quotes(field), wrong});
     return false;
   }
   return true;
@@ -177,7 +177,7 @@ GONIO_INLINE std::string_view sample_rows::rows_are_called(std::size_t count) co
 GONIO_INLINE void sample_rows::require_values() const {
   const std::size_t all = missing_ + rows_;
   if (2 * missing_ > all)
-    gonio::refuse({csv_.place().name, ", ", missing_message_, "; ", missing_, " of ", all, " ", rows_are_called(all),
+    gonio::refuse({csv_.position().name, ", ", missing_message_, "; ", missing_, " of ", all, " ", rows_are_called(all),
                    all == 1 ? " has" : " have", " no value, expected at most half; the file looks ",
                    description(csv_.dialect())});
 }
@@ -196,18 +196,18 @@ GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_vi
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::refuse_number(std::size_t column, std::string_view field,
                                                            const char* wrong) const {
-  csv_.place().refuse({"column ", header_.name_of(column), ": ", in_quotes(field), wrong, "; the file looks ",
-                       description(csv_.dialect())});
+  csv_.position().refuse({"column ", header_.name_of(column), ": ", in_quotes(field), wrong, "; the file looks ",
+                          description(csv_.dialect())});
 }
 
 /// Reads the quantity that a line states. All lines must state the same quantity.
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_quantity(std::string_view field) {
   const auto quantity = quantity_named(field);
   if (!quantity)
-    csv_.place().refuse({"column quantity: ", in_quotes(field),
-                         " is unknown, expected brdf, brdf-cosine, reflectance-factor or "
-                         "percent"});
-  quantity_.state(*quantity, "the column quantity", csv_.place());
+    csv_.position().refuse({"column quantity: ", in_quotes(field),
+                            " is unknown, expected brdf, brdf-cosine, reflectance-factor or "
+                            "percent"});
+  quantity_.state(*quantity, "the column quantity", csv_.position());
 }
 
 /// Throws gonio::error unless all values of the file have percent signs or none has.
@@ -215,16 +215,16 @@ GONIO_INLINE void sample_rows::read_number_of(std::size_t column, std::string_vi
   const std::size_t count = header_.values().count;
   if (rows_ == 0) has_percent_signs_ = signs > 0;
   if (signs != (has_percent_signs_ ? count : 0))
-    csv_.place().refuse("some values have percent signs and some have not, expected all or none");
-  if (rows_ == 0 && has_percent_signs_) quantity_.state_percent_signs("their percent signs", csv_.place());
+    csv_.position().refuse("some values have percent signs and some have not, expected all or none");
+  if (rows_ == 0 && has_percent_signs_) quantity_.state_percent_signs("their percent signs", csv_.position());
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::check_wavelength() {
   const double given = numbers_[wavelength_column];
-  if (!(given > 0.0)) csv_.place().refuse({"column wavelength: ", shortest(given), " nm, expected more than 0"});
+  if (!(given > 0.0)) csv_.position().refuse({"column wavelength: ", shortest(given), " nm, expected more than 0"});
   if (!wavelength_) wavelength_ = given;
   if (*wavelength_ != given)
-    csv_.place().refuse(
+    csv_.position().refuse(
         {"column wavelength: ", shortest(given), " nm, but ", shortest(*wavelength_),
          " nm above: more than one wavelength in this column is not supported, expected a file for each, or "
          "columns named by their wavelengths, such as 400nm"});
@@ -234,7 +234,7 @@ GONIO_INLINE void sample_rows::check_weights() const {
   const column_group& weights = header_.weights();
   for (std::size_t column = weights.first; column < weights.first + weights.count; ++column)
     if (numbers_[column] < 0.0)
-      csv_.place().refuse(
+      csv_.position().refuse(
           {"column ", sample_columns[column], ": ", shortest(numbers_[column]), " is negative, expected at least 0"});
 }
 
@@ -246,16 +246,16 @@ GONIO_INLINE void sample_rows::check_weights() const {
   }
   const double theta_i = numbers_[angle_group.first], theta_o = numbers_[angle_group.first + 2];
   if (theta_i < 0.0 || theta_o < 0.0) has_signed_angle_ = true;
-  if (theta_i > 0.0 && theta_o > 0.0 && line_of_unknown_side_ == 0) line_of_unknown_side_ = csv_.place().line;
+  if (theta_i > 0.0 && theta_o > 0.0 && line_of_unknown_side_ == 0) line_of_unknown_side_ = csv_.position().line;
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::finish() const {
   require_values();
-  if (rows_ == 0) gonio::refuse({csv_.place().name, ": has a header line but no samples, expected at least one"});
+  if (rows_ == 0) gonio::refuse({csv_.position().name, ": has a header line but no samples, expected at least one"});
   if (sign_ && header_.directions().first == half_difference_group.first)
-    gonio::refuse({csv_.place().name, ": has half vectors, to which theta-o-sign does not apply"});
+    gonio::refuse({csv_.position().name, ": has half vectors, to which theta-o-sign does not apply"});
   if (line_of_unknown_side_ > 0 && !has_signed_angle_)
-    text_place{csv_.place().name, line_of_unknown_side_}.refuse(
+    text_position{csv_.position().name, line_of_unknown_side_}.refuse(
         "the viewer's side of the normal is unknown: there are no columns phi_i and phi_o, and no angle is negative; "
         "expected these columns, negative angles on one side of the normal, or --theta-o-sign");
   if (reading_.note) note_assumptions();
@@ -263,7 +263,7 @@ GONIO_INLINE void sample_rows::check_weights() const {
 
 /// Notes assumptions about the file, and its lines and columns that are ignored.
 [[gnu::cold]] GONIO_INLINE void sample_rows::note_assumptions() const {
-  const std::string& name = csv_.place().name;
+  const std::string& name = csv_.position().name;
   if (const std::size_t lines = csv_.passed_over().size(); lines > 0)
     reading_.note(message_of({name, ": ", lines, lines == 1 ? " line" : " lines", " above the header line ",
                               lines == 1 ? "is" : "are", " not read"}));
@@ -283,7 +283,7 @@ GONIO_INLINE void sample_rows::check_weights() const {
 
 /// Notes angles without a column, and the assumed meaning of X, Y and Z.
 [[gnu::cold]] GONIO_INLINE void sample_rows::note_layout() const {
-  const std::string& name = csv_.place().name;
+  const std::string& name = csv_.position().name;
   if (const auto& matrix = header_.matrix())
     reading_.note(message_of({name, ": is read as a matrix, ", description(*matrix)}));
   for (const stated_angle& stated : header_.stated())

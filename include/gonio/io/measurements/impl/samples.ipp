@@ -29,27 +29,28 @@ namespace gonio::io::detail {
 /// Returns a polar angle in radians. With `either_side` it may be negative, as for a goniometer's arm: this turns the
 /// azimuth by 180 degrees.
 [[nodiscard]] GONIO_INLINE double polar_angle(const sample_row& row, std::size_t column, bool either_side,
-                                              const text_place& place) {
+                                              const text_position& position) {
   const double angle = row[column];
   if (!((angle >= 0.0 || either_side) && std::abs(angle) < 90.0))
-    place.refuse({"column ", sample_columns[column], ": ", shortest(angle), " degrees",
-                  angle < 0.0 && !either_side ? " is negative" : " is at or below the horizon", ", expected ",
-                  either_side ? "between -90 and 90" : "at least 0 and less than 90"});
+    position.refuse({"column ", sample_columns[column], ": ", shortest(angle), " degrees",
+                     angle < 0.0 && !either_side ? " is negative" : " is at or below the horizon", ", expected ",
+                     either_side ? "between -90 and 90" : "at least 0 and less than 90"});
   return radians(angle);
 }
 
-[[nodiscard]] GONIO_INLINE double azimuth(const sample_row& row, std::size_t column, const text_place& place) {
+[[nodiscard]] GONIO_INLINE double azimuth(const sample_row& row, std::size_t column, const text_position& position) {
   if (!(std::abs(row[column]) <= 360.0))
-    place.refuse(
+    position.refuse(
         {"column ", sample_columns[column], ": ", shortest(row[column]), " degrees, expected from -360 to 360"});
   return radians(row[column]);
 }
 
-[[nodiscard]] GONIO_INLINE direction unit_vector(const sample_row& row, std::size_t first, const text_place& place) {
+[[nodiscard]] GONIO_INLINE direction unit_vector(const sample_row& row, std::size_t first,
+                                                 const text_position& position) {
   const double x = row[first], y = row[first + 1], z = row[first + 2];
   const double length = gonio::norm_of(x, y, z);
   const auto refuse = [&](const char* what, double value, const char* expected) {
-    place.refuse(
+    position.refuse(
         {"columns ", sample_columns[first], " to ", sample_columns[first + 2], what, shortest(value), expected});
   };
   if (!(std::abs(length - 1.0) <= 1e-3)) refuse(": the vector has length ", length, ", expected 1");
@@ -57,28 +58,29 @@ namespace gonio::io::detail {
   return {x / length, y / length, z / length};
 }
 
-GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_row& row) {
+GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const row_view& row) {
   if (cosine.i > 0.0 && cosine.o > 0.0) return;
   std::string given;
   for (std::size_t column = row.group.first; column < row.group.first + row.group.count; ++column)
     given += message_of({given.empty() ? "" : ", ", sample_columns[column], " ", shortest(row.numbers[column])});
-  row.place.refuse({"a direction is at or below the horizon (", given, ")"});
+  row.position.refuse({"a direction is at or below the horizon (", given, ")"});
 }
 
 /// Returns the angles of a row that gives half and difference angles.
-[[nodiscard]] GONIO_INLINE half_difference given_angles(const parsed_row& row) {
-  return {polar_angle(row.numbers, 0, false, row.place), polar_angle(row.numbers, 1, false, row.place),
-          azimuth(row.numbers, 2, row.place)};
+[[nodiscard]] GONIO_INLINE half_difference given_angles(const row_view& row) {
+  return {polar_angle(row.numbers, 0, false, row.position), polar_angle(row.numbers, 1, false, row.position),
+          azimuth(row.numbers, 2, row.position)};
 }
 
 /// Returns light and viewer of a row that gives directions.
-[[nodiscard]] GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE direction_pair given_directions(const row_view& row) {
   const sample_row& numbers = row.numbers;
-  const text_place& place = row.place;
-  if (row.group.first == vector_group.first) return {unit_vector(numbers, 7, place), unit_vector(numbers, 10, place)};
-  const double theta_i = polar_angle(numbers, 3, true, place), theta_o = polar_angle(numbers, 5, true, place);
-  return {spherical_direction(theta_i, azimuth(numbers, 4, place)),
-          spherical_direction(theta_o, azimuth(numbers, 6, place))};
+  const text_position& position = row.position;
+  if (row.group.first == vector_group.first)
+    return {unit_vector(numbers, 7, position), unit_vector(numbers, 10, position)};
+  const double theta_i = polar_angle(numbers, 3, true, position), theta_o = polar_angle(numbers, 5, true, position);
+  return {spherical_direction(theta_i, azimuth(numbers, 4, position)),
+          spherical_direction(theta_o, azimuth(numbers, 6, position))};
 }
 
 /// Returns the angles as given. If phi_d is outside half a turn, returns a pair of directions instead: folding phi_d
@@ -90,29 +92,29 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
 
 /// Returns a row's directions. Refuses grazing directions that rounding puts below the horizon in either form, as
 /// angles or as a pair.
-[[nodiscard]] GONIO_INLINE sample_directions row_directions(const parsed_row& row) {
-  const sample_directions at = row.has_half_difference() ? directions_of(given_angles(row)) : given_directions(row);
-  require_above_horizon(cosines(at.angles()), row);
-  require_above_horizon({at.pair().wi.z(), at.pair().wo.z()}, row);
-  return at;
+[[nodiscard]] GONIO_INLINE sample_directions row_directions(const row_view& row) {
+  const sample_directions given = row.has_half_difference() ? directions_of(given_angles(row)) : given_directions(row);
+  require_above_horizon(cosines(given.angles()), row);
+  require_above_horizon({given.pair().wi.z(), given.pair().wo.z()}, row);
+  return given;
 }
 
 /// Is light or viewer at 90 degrees? Goniometers reach this angle, where there is no BRDF.
-[[nodiscard]] GONIO_INLINE bool is_at_horizon(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE bool is_at_horizon(const row_view& row) {
   if (row.has_half_difference() || row.group.first == vector_group.first) return false;
   return std::abs(row.numbers[3]) == 90.0 || std::abs(row.numbers[5]) == 90.0;
 }
 
-[[nodiscard]] GONIO_INLINE channel_weights row_weight(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE channel_weights row_weight(const row_view& row) {
   const double* first = &row.numbers[row.weights.first];
   return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
 }
 
-[[nodiscard]] GONIO_INLINE aperture row_aperture(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE aperture row_aperture(const row_view& row) {
   const auto half_angle = [&](std::size_t column) {
     const double angle = radians(row.numbers[column]);
     if (!(angle >= 0.0 && angle <= largest_half_angle))
-      row.place.refuse(
+      row.position.refuse(
           {sample_columns[column], ": ", shortest(row.numbers[column]), " degrees, expected from 0 to 45"});
     return angle;
   };
@@ -120,22 +122,23 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
 }
 
 /// Throws gonio::error if the quantity is unknown; r,g,b are always a BRDF.
-GONIO_INLINE void require_quantity(const parsed_row& row) {
+GONIO_INLINE void require_quantity(const row_view& row) {
   if (row.quantity || row.values.first == colour_group.first) return;
-  row.place.refuse({"the file does not state the quantity of ", row.header.name_of(row.values.first),
-                    ", expected a comment line '# quantity: brdf' above, or brdf-cosine, reflectance-factor or "
-                    "percent (or the option --quantity)"});
+  row.position.refuse({"the file does not state the quantity of ", row.header.name_of(row.values.first),
+                       ", expected a comment line '# quantity: brdf' above, or brdf-cosine, reflectance-factor or "
+                       "percent (or the option --quantity)"});
 }
 
-GONIO_INLINE void refuse_beyond_float(const parsed_row& row, std::size_t column, double value) {
-  row.place.refuse(
+GONIO_INLINE void refuse_float_overflow(const row_view& row, std::size_t column, double value) {
+  row.position.refuse(
       {"column ", row.header.name_of(column), ": ", shortest(value), " sr^-1 is outside the range of float"});
 }
 
 /// Converts the values of a row to a BRDF, sr^-1.
-GONIO_INLINE void read_row_values(const parsed_row& row, const sample_directions& at, std::vector<double>& values) {
+GONIO_INLINE void read_row_values(const row_view& row, const sample_directions& directions,
+                                  std::vector<double>& values) {
   require_quantity(row);
-  const double factor = brdf_factor(row.quantity.value_or(sample_quantity::brdf), at.pair().wo);
+  const double factor = brdf_factor(row.quantity.value_or(sample_quantity::brdf), directions.pair().wo);
   values.clear();
   for (std::size_t column = row.values.first; column < row.values.first + row.values.count; ++column)
     values.push_back(factor * row.numbers[column]);
@@ -145,7 +148,7 @@ GONIO_INLINE void read_row_values(const parsed_row& row, const sample_directions
   }
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!(std::abs(values[k]) <= double{std::numeric_limits<float>::max()}))
-      refuse_beyond_float(row, row.values.first + k, values[k]);
+      refuse_float_overflow(row, row.values.first + k, values[k]);
 }
 
 /// Returns the channels of a file whose first row has been read.
@@ -228,7 +231,7 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
   std::vector<double> values;
   std::size_t at_horizon = 0;
   while (rows.next()) {
-    const detail::parsed_row row = rows.row();
+    const detail::row_view row = rows.row();
     if (detail::is_at_horizon(row)) {
       ++at_horizon;
       continue;
@@ -237,11 +240,11 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
       return read_sample_file(text, name, detail::with_assumed_scale(text, name, reading));
     if (file.samples.empty()) file.samples = sample_set(detail::channels_of(rows));
     if (row.weights.count > 1 && file.samples.channels().are_wavelengths())
-      row.place.refuse("samples at wavelengths have one weight, expected weight, not one for each channel");
-    const sample_directions at = detail::row_directions(row);
-    detail::read_row_values(row, at, values);
-    file.samples.add(at, values, detail::row_weight(row), detail::row_aperture(row));
-    file.text.lines.push_back(row.place.line);
+      row.position.refuse("samples at wavelengths have one weight, expected weight, not one for each channel");
+    const sample_directions directions = detail::row_directions(row);
+    detail::read_row_values(row, directions, values);
+    file.samples.add(directions, values, detail::row_weight(row), detail::row_aperture(row));
+    file.text.lines.push_back(row.position.line);
   }
   if (file.samples.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
   detail::note_left_out(rows, at_horizon, static_cast<std::size_t>(file.samples.size()), reading, name);
@@ -311,8 +314,8 @@ namespace detail {
 [[nodiscard]] inline std::vector<double> direction_numbers(const sample_directions& directions,
                                                            direction_columns columns) {
   if (columns == direction_columns::half_difference) {
-    const half_difference& at = directions.angles();
-    return {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d))};
+    const half_difference& angles = directions.angles();
+    return {degrees(angles.theta_h), degrees(angles.theta_d), degrees(fold_phi_d(angles.phi_d))};
   }
   const auto rounded = [](double angle) { return std::round(degrees(angle) * 1e9) / 1e9 + 0.0; };
   const auto& [wi, wo] = directions.pair();

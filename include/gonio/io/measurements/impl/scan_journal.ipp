@@ -79,30 +79,30 @@ GONIO_INLINE std::string write_reading(std::size_t pose, const capture::reading&
 }
 
 GONIO_INLINE double number_reader::next() {
-  if (used_ == rule_.numbers.size()) place_.refuse("ends after " + std::to_string(used_) + " numbers");
+  if (used_ == rule_.numbers.size()) position_.refuse("ends after " + std::to_string(used_) + " numbers");
   return rule_.numbers[used_++];
 }
 
 GONIO_INLINE std::size_t number_reader::next_whole(double most, const std::string& what) {
   const double value = next();
   if (!(value >= 0.0 && value <= most && value == std::floor(value)))
-    place_.refuse(what + " is " + shortest(value) + ", expected a whole number up to " + shortest(most));
+    position_.refuse(what + " is " + shortest(value) + ", expected a whole number up to " + shortest(most));
   return static_cast<std::size_t>(value);
 }
 
 GONIO_INLINE capture::reading read_reading(number_reader& numbers, std::uint16_t largest_count,
-                                           const text_place& place) {
+                                           const text_position& position) {
   capture::reading taken;
   const std::size_t frames = numbers.next_whole(1000, "the number of frames");
   for (std::size_t i = 0; i < frames; ++i) {
     taken.times.push_back(numbers.next());
-    if (!(taken.times.back() > 0.0)) place.refuse("an exposure time must be positive");
+    if (!(taken.times.back() > 0.0)) position.refuse("an exposure time must be positive");
   }
   const std::size_t pixels = numbers.next_whole(1e6, "the number of pixels");
-  if (frames == 0 || pixels == 0) place.refuse("a reading needs at least one frame of at least one pixel");
+  if (frames == 0 || pixels == 0) position.refuse("a reading needs at least one frame of at least one pixel");
   if (numbers.left() != frames * pixels * 3 + 1)  // the last number is the checksum
-    place.refuse("has " + std::to_string(numbers.left() - std::min<std::size_t>(numbers.left(), 1)) +
-                 " counts, expected " + std::to_string(frames * pixels * 3));
+    position.refuse("has " + std::to_string(numbers.left() - std::min<std::size_t>(numbers.left(), 1)) +
+                    " counts, expected " + std::to_string(frames * pixels * 3));
   for (std::size_t i = 0; i < frames; ++i) {
     capture::camera_frame each(pixels, 3);
     for (std::uint16_t& count : each.reshaped())
@@ -118,14 +118,14 @@ GONIO_INLINE bool is_pose(const direction_pair& pose) {
   return is_above(pose.wi) && is_above(pose.wo);
 }
 
-GONIO_INLINE direction_pair read_pose(const text_rule& rule, std::size_t numbers, const text_place& place) {
-  require_numbers(rule, {numbers}, place);
+GONIO_INLINE direction_pair read_pose(const text_rule& rule, std::size_t numbers, const text_position& position) {
+  require_numbers(rule, {numbers}, position);
   const direction_pair pose{direction::Map(rule.numbers.data()), direction::Map(rule.numbers.data() + 3)};
-  if (!is_pose(pose)) place.refuse("a pose needs two unit vectors above the horizon");
+  if (!is_pose(pose)) position.refuse("a pose needs two unit vectors above the horizon");
   return pose;
 }
 
-GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& place, scan_lines& before) {
+GONIO_INLINE bool apply_subject_line(std::string_view line, const text_position& position, scan_lines& before) {
   const std::size_t blank = std::min(line.find(' '), line.size());
   const std::string_view name = line.substr(0, blank);
   if (name != "sample" && name != "setup" && name != "seed") return false;
@@ -133,12 +133,12 @@ GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& pl
   std::uint64_t number = 0;
   const auto [end, failed] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   const std::string_view text = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
-  if (failed != std::errc()) place.refuse({in_quotes(name), " needs a whole number first"});
+  if (failed != std::errc()) position.refuse({in_quotes(name), " needs a whole number first"});
   if (text.empty() != (name == "seed"))
-    place.refuse({in_quotes(name), name == "seed" ? " takes no text" : " needs a text"});
-  if (has_control_characters(text)) place.refuse({in_quotes(name), " has control characters"});
+    position.refuse({in_quotes(name), name == "seed" ? " takes no text" : " needs a text"});
+  if (has_control_characters(text)) position.refuse({in_quotes(name), " has control characters"});
   bool& has = name == "sample" ? before.has_sample : name == "setup" ? before.has_setup : before.has_seed;
-  if (has) place.refuse({in_quotes(name), " appears twice"});
+  if (has) position.refuse({in_quotes(name), " appears twice"});
   has = true;
   if (name == "seed") {
     before.subject.seed = number;
@@ -146,47 +146,47 @@ GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& pl
     before.subject.sample = text;
     before.subject.checksum = static_cast<std::uint32_t>(number);
   } else {
-    if (number != checksum(text)) place.refuse("the checksum of 'setup' is wrong, the line is damaged");
+    if (number != checksum(text)) position.refuse("the checksum of 'setup' is wrong, the line is damaged");
     before.subject.setup = text;
   }
   return true;
 }
 
-GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan,
+GONIO_INLINE void apply_scan_line(std::string_view line, const text_position& position, recorded_scan& scan,
                                   scan_lines& before) {
-  if (apply_subject_line(line, place, before)) return;
-  const text_rule rule = read_rule(line, place);
-  number_reader numbers(rule, place);
+  if (apply_subject_line(line, position, before)) return;
+  const text_rule rule = read_rule(line, position);
+  number_reader numbers(rule, position);
   if (rule.name == "largest_count") {
-    require_numbers(rule, {1}, place);
+    require_numbers(rule, {1}, position);
     scan.largest_count = static_cast<std::uint16_t>(numbers.next_whole(65535, "the largest count"));
   } else if (rule.name == "plan") {
-    require_numbers(rule, {2}, place);
+    require_numbers(rule, {2}, position);
     const std::size_t poses = numbers.next_whole(1e9, "the number of poses");
     before.plan.emplace(poses, static_cast<std::uint32_t>(numbers.next_whole(4294967295.0, "the poses' checksum")));
   } else if (rule.name == "pose") {
-    if (before.has_reading) place.refuse("a pose follows the first reading");
-    if (scan.poses.size() > scan.planned) place.refuse("a planned pose follows an added one");
-    scan.poses.push_back(read_pose(rule, 6, place));
+    if (before.has_reading) position.refuse("a pose follows the first reading");
+    if (scan.poses.size() > scan.planned) position.refuse("a planned pose follows an added one");
+    scan.poses.push_back(read_pose(rule, 6, position));
     scan.readings.emplace_back();
     ++scan.planned;
     before.pose_lines.append(line).push_back('\n');
   } else if (rule.name == "added_pose") {
-    if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
-    scan.poses.push_back(read_pose(rule, 7, place));
+    if (!has_checksum(line)) position.refuse("the checksum is wrong, the line is damaged");
+    scan.poses.push_back(read_pose(rule, 7, position));
     scan.readings.emplace_back();
   } else if (rule.name == "reading") {
-    if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
+    if (!has_checksum(line)) position.refuse("the checksum is wrong, the line is damaged");
     const std::size_t pose = numbers.next_whole(1e9, "the pose");
     if (pose >= scan.poses.size())
-      place.refuse("there is no pose " + std::to_string(pose) + ", expected less than " +
-                   std::to_string(scan.poses.size()));
-    if (scan.readings[pose]) place.refuse("pose " + std::to_string(pose) + " has a second reading");
-    scan.readings[pose] = read_reading(numbers, scan.largest_count, place);
+      position.refuse("there is no pose " + std::to_string(pose) + ", expected less than " +
+                      std::to_string(scan.poses.size()));
+    if (scan.readings[pose]) position.refuse("pose " + std::to_string(pose) + " has a second reading");
+    scan.readings[pose] = read_reading(numbers, scan.largest_count, position);
     before.has_reading = true;
   } else {
-    place.refuse(in_quotes(rule.name) +
-                 " is unknown, expected sample, setup, seed, largest_count, plan, pose, added_pose or reading");
+    position.refuse(in_quotes(rule.name) +
+                    " is unknown, expected sample, setup, seed, largest_count, plan, pose, added_pose or reading");
   }
 }
 
@@ -224,10 +224,10 @@ GONIO_INLINE std::uint32_t checksum_of_file(const std::filesystem::path& path) {
 
 GONIO_INLINE recorded_scan read_scan(std::string_view text, const std::string& name) {
   recorded_scan scan;
-  text_place place{name};
+  text_position position{name};
   detail::scan_lines before;
-  for_each_line(detail::whole_lines(text), place,
-                [&](std::string_view line) { detail::apply_scan_line(line, place, scan, before); });
+  for_each_line(detail::whole_lines(text), position,
+                [&](std::string_view line) { detail::apply_scan_line(line, position, scan, before); });
   detail::finish_scan(scan, before, name);
   return scan;
 }

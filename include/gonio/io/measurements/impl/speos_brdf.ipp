@@ -38,29 +38,29 @@ struct speos_turn {
   std::vector<speos_table> tables;
 };
 
-/// Takes the rows above the numbers from the front of the text; `place` is then at the last of these rows.
-GONIO_INLINE void read_speos_rows(std::string_view& text, text_place& place) {
+/// Takes the rows above the numbers from the front of the text and moves `position` to the last of these rows.
+GONIO_INLINE void read_speos_rows(std::string_view& text, text_position& position) {
   const auto line = [&] {
     if (text.empty())
-      gonio::refuse({place.name, ": ends after line ", place.line, ", expected a header of seven rows"});
+      gonio::refuse({position.name, ": ends after line ", position.line, ", expected a header of seven rows"});
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view whole = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    ++place.line;
+    ++position.line;
     return trimmed(whole);
   };
   const std::string_view header = line();
   if (!header.starts_with(speos_header) && !header.starts_with(speos_anisotropic_header))
-    place.refuse({"expected the header '", speos_header, "' or '", speos_anisotropic_header, "'"});
+    position.refuse({"expected the header '", speos_header, "' or '", speos_anisotropic_header, "'"});
   if (const std::string_view mode = line(); mode != "0")
-    place.refuse({"the mode is ", in_quotes(mode), ", expected 0, text: save the file as text in Speos"});
+    position.refuse({"the mode is ", in_quotes(mode), ", expected 0, text: save the file as text in Speos"});
   static_cast<void>(line());  // a comment
-  const double size = read_number(line(), place, [] { return "the size of the description"; });
+  const double size = read_number(line(), position, [] { return "the size of the description"; });
   if (!(size >= 0.0 && size <= static_cast<double>(text.size())))
-    place.refuse({"the description has ", shortest(size), " characters, but the file only ", text.size(), " more"});
+    position.refuse({"the description has ", shortest(size), " characters, but the file only ", text.size(), " more"});
   const std::string_view description = text.substr(0, static_cast<std::size_t>(size));
   text.remove_prefix(description.size());
-  place.line += static_cast<std::size_t>(std::ranges::count(description, '\n'));
+  position.line += static_cast<std::size_t>(std::ranges::count(description, '\n'));
   static_cast<void>(line());
 }
 
@@ -83,7 +83,7 @@ template <class Density>
 
 class speos_reader {
  public:
-  speos_reader(std::string_view text, text_place& place) : words_(text, place), size_(text.size()) {}
+  speos_reader(std::string_view text, text_position& position) : words_(text, position), size_(text.size()) {}
 
   [[nodiscard]] sample_collector read();
   /// Reads a file of the anisotropic kind.
@@ -113,7 +113,7 @@ class speos_reader {
 
 GONIO_INLINE double speos_reader::count(std::string_view what, double most) {
   const double number = words_.read_number(what, 1.0, most);
-  if (number != std::floor(number)) words_.place().refuse({what, ": ", shortest(number), " is not a whole number"});
+  if (number != std::floor(number)) words_.position().refuse({what, ": ", shortest(number), " is not a whole number"});
   return number;
 }
 
@@ -123,7 +123,7 @@ GONIO_INLINE std::vector<double> speos_reader::ascending(double count, std::stri
   while (static_cast<double>(numbers.size()) < count) {
     const double number = words_.read_number(what, lowest, highest);
     if (!numbers.empty() && !(number > numbers.back()))
-      words_.place().refuse(
+      words_.position().refuse(
           {what, ": ", shortest(number), " follows ", shortest(numbers.back()), ", expected ascending numbers"});
     numbers.push_back(number);
   }
@@ -152,7 +152,7 @@ GONIO_INLINE std::vector<double> speos_reader::azimuth_weights(const std::vector
   const bool is_half = std::abs(width - 180.0) < rounding;
   const bool is_open = width - 180.0 > rounding && 360.0 - width > rounding;
   if (phi.size() < 2 || width < 180.0 - rounding)
-    words_.place().refuse({"phi covers ", shortest(width), " degrees, expected 180 or 360"});
+    words_.position().refuse({"phi covers ", shortest(width), " degrees, expected 180 or 360"});
   if (is_open) nodes.push_back(phi.front() + 360.0);
   std::vector<double> weights = node_weights(nodes, one);
   if (is_open) {
@@ -174,7 +174,7 @@ GONIO_INLINE double speos_reader::integral(const speos_table& table) const {
   for (std::size_t i = 0; i < table.theta.size(); ++i)
     for (std::size_t k = 0; k < table.phi.size(); ++k)
       sum += of_theta[i] * of_phi[k] * table.values[i * table.phi.size() + k];
-  if (!(sum > 0.0)) words_.place().refuse("the table above reflects no light and cannot be scaled");
+  if (!(sum > 0.0)) words_.position().refuse("the table above reflects no light and cannot be scaled");
   return sum;
 }
 
@@ -185,7 +185,7 @@ GONIO_INLINE void speos_reader::scale(speos_table& table, double factor) const {
       double& value = table.values[i * table.phi.size() + k];
       value *= factor;
       if (has_cosine_) value /= std::max(std::cos(radians(table.theta[i])), 1e-9);
-      if (table.theta[i] < 90.0) require_float_range(value, words_.place());
+      if (table.theta[i] < 90.0) require_float_range(value, words_.position());
     }
 }
 
@@ -210,14 +210,14 @@ void speos_reader::add(sample_collector& to, double incidence, double turn, cons
 GONIO_INLINE void speos_reader::read_kind() {
   const bool reflects = words_.read_one_of({"0", "1"}) == 1, transmits = words_.read_one_of({"0", "1"}) == 1;
   if (!reflects || transmits)
-    words_.place().refuse(
+    words_.position().refuse(
         "the file has transmission, expected only reflection, '1 0': save the reflection alone in Speos");
   has_cosine_ = words_.read_one_of({"0", "1"}) == 0;
 }
 
 GONIO_INLINE void speos_reader::finish() {
   if (words_.peek() == "End") static_cast<void>(words_.read_rest_of_line());  // "End of file"
-  if (!words_.peek().empty()) words_.place().refuse("the file continues after its last table");
+  if (!words_.peek().empty()) words_.position().refuse("the file continues after its last table");
 }
 
 GONIO_INLINE sample_collector speos_reader::read() {
@@ -234,7 +234,7 @@ GONIO_INLINE sample_collector speos_reader::read() {
       spectrum.push_back(read_table());
       scale(spectrum.back(), 0.01 * reflectance / integral(spectrum.back()));
       if (spectrum.back().theta != spectrum.front().theta || spectrum.back().phi != spectrum.front().phi)
-        words_.place().refuse("the table above has other directions than the table of the first wavelength");
+        words_.position().refuse("the table above has other directions than the table of the first wavelength");
     }
     add(collector, incidence, 0.0, spectrum.front(), [&](std::size_t i, std::vector<double>& values) {
       for (const speos_table& each : spectrum) values.push_back(each.values[i]);
@@ -283,7 +283,7 @@ GONIO_INLINE void speos_reader::require_room(std::size_t wavelengths, const std:
   for (const speos_turn& turn : turns)
     for (const speos_table& table : turn.tables) values += table.values.size();
   if (values > (small + of_each_byte * size_) / wavelengths)
-    gonio::refuse({words_.place().name, ": has ", values, " values and a spectrum of ", wavelengths,
+    gonio::refuse({words_.position().name, ": has ", values, " values and a spectrum of ", wavelengths,
                    " wavelengths, which are too many for a file of this size"});
 }
 
@@ -296,7 +296,7 @@ GONIO_INLINE sample_collector speos_reader::read_anisotropic() {
                azimuth = words_.read_number("the spectrum's anisotropy angle", 0.0, 360.0);
   const auto of_spectrum = std::ranges::find(turns, azimuth, &speos_turn::azimuth);
   if (of_spectrum == turns.end())
-    words_.place().refuse(
+    words_.position().refuse(
         {"the spectrum's anisotropy angle ", shortest(azimuth), " is not among the angles of the tables"});
   skip_title();
   std::vector<double> wavelengths, reflectances;
@@ -332,11 +332,11 @@ GONIO_INLINE bool looks_like_speos_brdf(std::string_view text) {
 }
 
 GONIO_INLINE sample_set read_speos_brdf(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
+  text_position position{name, 0};
   text = without_byte_order_mark(text);
   const bool is_anisotropic = text.starts_with(detail::speos_anisotropic_header);
-  detail::read_speos_rows(text, place);
-  detail::speos_reader reader(text, place);
+  detail::read_speos_rows(text, position);
+  detail::speos_reader reader(text, position);
   return (is_anisotropic ? reader.read_anisotropic() : reader.read()).samples(name);
 }
 

@@ -29,7 +29,7 @@ namespace gonio::io::detail {
 GONIO_INLINE sample_collector ssdd_reader::read() {
   read_header();
   while (!words_.peek().empty()) read_block();
-  if (!samples_) gonio::refuse({words_.place().name, ": has no block of DATA_TYPE brdf"});
+  if (!samples_) gonio::refuse({words_.position().name, ": has no block of DATA_TYPE brdf"});
   return *std::move(samples_);
 }
 
@@ -37,7 +37,7 @@ GONIO_INLINE void ssdd_reader::read_header() {
   static_cast<void>(words_.read_one_of({"VERSION"}));
   const std::string_view version = words_.read_rest_of_line();
   if (!version.starts_with("0."))
-    words_.place().refuse({"SSDD of version ", in_quotes(version), ", expected one that begins with 0."});
+    words_.position().refuse({"SSDD of version ", in_quotes(version), ", expected one that begins with 0."});
   while (words_.peek() != "DATA_TYPE") {
     static_cast<void>(words_.read_one_of({"SOFTWARE", "API", "DATE", "DATA_TYPE"}));
     static_cast<void>(words_.read_rest_of_line());
@@ -72,32 +72,32 @@ GONIO_INLINE void ssdd_reader::read_entry(block_header& block, std::string_view 
                             "half_difference_coordinate_system", "distorted_spherical_coordinate_system"}));
   } else if (key == "PARAM4_LIST") {
     for (const double offset : words_.read_line(key, -90.0, 90.0))
-      if (offset != 0.0) words_.place().refuse("PARAM4_LIST: offsets from the specular direction are not supported");
+      if (offset != 0.0) words_.position().refuse("PARAM4_LIST: offsets from the specular direction are not supported");
   } else {
-    words_.place().refuse({in_quotes(key), " is not an entry of an SSDD file"});
+    words_.position().refuse({in_quotes(key), " is not an entry of an SSDD file"});
   }
 }
 
 GONIO_INLINE std::size_t ssdd_reader::channel_count(const block_header& block) const {
-  if (block.colour_model.empty()) words_.place().refuse("COLOR_MODEL is missing before DATA");
+  if (block.colour_model.empty()) words_.position().refuse("COLOR_MODEL is missing before DATA");
   if (block.colour_model == "monochrome") return 1;
   if (block.colour_model != "spectrum") return 3;
-  if (block.wavelengths.empty()) words_.place().refuse("WAVELENGTH_LIST is missing before DATA");
+  if (block.wavelengths.empty()) words_.position().refuse("WAVELENGTH_LIST is missing before DATA");
   return block.wavelengths.size();
 }
 
 GONIO_INLINE void ssdd_reader::check_block(const block_header& block) const {
-  if (!block.parameters) words_.place().refuse("PARAM_TYPE is missing before DATA");
+  if (!block.parameters) words_.position().refuse("PARAM_TYPE is missing before DATA");
   if (block.parameters == coordinates::distorted_spherical)
-    words_.place().refuse("distorted spherical coordinates are not supported, expected another PARAM_TYPE");
+    words_.position().refuse("distorted spherical coordinates are not supported, expected another PARAM_TYPE");
   const bool is_half_difference = block.parameters == coordinates::half_difference;
   const double largest_second = is_half_difference || block.parameters == coordinates::spherical ? 90.0 : 180.0;
   for (const std::size_t list : {0, 2, 3})
-    if (block.angles[list].empty()) words_.place().refuse({"PARAM", list, "_LIST is missing before DATA"});
+    if (block.angles[list].empty()) words_.position().refuse({"PARAM", list, "_LIST is missing before DATA"});
   for (const auto& [list, largest] : {std::pair<std::size_t, double>{0, 90.0}, {2, largest_second}})
     if (std::ranges::max(block.angles[list]) > largest)
-      words_.place().refuse({"PARAM", list, "_LIST: ", shortest(std::ranges::max(block.angles[list])),
-                             " degrees, expected at most ", shortest(largest)});
+      words_.position().refuse({"PARAM", list, "_LIST: ", shortest(std::ranges::max(block.angles[list])),
+                                " degrees, expected at most ", shortest(largest)});
 }
 
 GONIO_INLINE std::vector<double> ssdd_reader::read_numbers(std::size_t count) {
@@ -110,7 +110,7 @@ GONIO_INLINE std::vector<double> ssdd_reader::read_numbers(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     float number = 0.0f;
     std::memcpy(&number, bytes.data() + i * sizeof number, sizeof number);
-    if (!std::isfinite(number)) gonio::refuse({words_.place().name, ": a binary colour is not finite"});
+    if (!std::isfinite(number)) gonio::refuse({words_.position().name, ": a binary colour is not finite"});
     numbers.push_back(number);
   }
   return numbers;
@@ -119,12 +119,12 @@ GONIO_INLINE std::vector<double> ssdd_reader::read_numbers(std::size_t count) {
 GONIO_INLINE void ssdd_reader::read_block() {
   const block_header block = read_block_header();
   const bool is_brdf = block.type == "brdf";
-  if (is_brdf && samples_) words_.place().refuse("a second block of DATA_TYPE brdf");
+  if (is_brdf && samples_) words_.position().refuse("a second block of DATA_TYPE brdf");
   if (is_brdf) check_block(block);
   std::size_t count = channel_count(block);
   for (const std::vector<double>& list : block.angles) {
     constexpr std::size_t most = 1'000'000'000;
-    if (list.size() > most / count) words_.place().refuse("the lists need more than 1000000000 numbers");
+    if (list.size() > most / count) words_.position().refuse("the lists need more than 1000000000 numbers");
     count *= std::max<std::size_t>(list.size(), 1);
   }
   static_cast<void>(words_.read_one_of({"DATA"}));
@@ -149,7 +149,7 @@ GONIO_INLINE sample_collector ssdd_reader::collector_of(const block_header& bloc
   try {
     return sample_collector(channels(block.wavelengths));
   } catch (const error& reason) {
-    words_.place().refuse({"WAVELENGTH_LIST: ", reason.what()});
+    words_.position().refuse({"WAVELENGTH_LIST: ", reason.what()});
   }
 }
 
@@ -169,7 +169,7 @@ GONIO_INLINE sample_collector ssdd_reader::samples(const block_header& block,
     std::array<double, 4> angles{};
     for (std::size_t k = 0; k < 4; ++k) angles[k] = block.angles[k].empty() ? 0.0 : radians(block.angles[k][at[k]]);
     const std::span colour(&numbers[i * count], count);
-    for (const double number : colour) require_float_range(number, words_.place());
+    for (const double number : colour) require_float_range(number, words_.position());
     collector.add(pair_of(*block.parameters, angles), colour);
   }
   return collector;
@@ -180,15 +180,15 @@ GONIO_INLINE sample_collector ssdd_reader::samples(const block_header& block,
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_ssdd(std::string_view text) {
-  text_place place;
-  detail::word_reader words(text, place);
+  text_position position;
+  detail::word_reader words(text, position);
   return words.read_if("VERSION") && words.read_rest_of_line().starts_with("0.") &&
          text.find("DATA_TYPE") != std::string_view::npos;
 }
 
 GONIO_INLINE sample_set read_ssdd(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  return detail::ssdd_reader(text, place).read().samples(name);
+  text_position position{name, 0};
+  return detail::ssdd_reader(text, position).read().samples(name);
 }
 
 GONIO_INLINE sample_set read_ssdd(const std::filesystem::path& path) {

@@ -62,7 +62,7 @@ class tensor_tree_reader {
   void add_cells(const tree_cell& cell, const std::vector<double>& values, std::size_t along_axis);
   void add_cell(const tree_cell& cell, double value);
   void add_centre(const tree_cell& cell, double value);
-  [[noreturn]] void refuse(std::initializer_list<message_part> what) const { data_.place(rest_).refuse(what); }
+  [[noreturn]] void refuse(std::initializer_list<message_part> what) const { data_.position(rest_).refuse(what); }
 
   const xml_element& data_;
   std::string_view rest_;
@@ -176,12 +176,12 @@ GONIO_INLINE sample_set read_tensor_tree_xml(std::string_view text, const std::s
   const detail::xml_element file(text, name), definition = file.first("DataDefinition");
   const std::string_view structure = definition.text("IncidentDataStructure");
   if (structure != "TensorTree3" && structure != "TensorTree4")
-    definition.place(definition.content())
+    definition.position(definition.content())
         .refuse(
             {"<IncidentDataStructure> ", in_quotes(structure), " is not a tree, expected TensorTree3 or TensorTree4"});
   const detail::xml_element block = detail::reflection_of(file, name, wanted), data = block.first("ScatteringData");
   if (const std::string_view basis = block.text("AngleBasis"); basis != "LBNL/Shirley-Chiu")
-    block.place(block.content())
+    block.position(block.content())
         .refuse({"<AngleBasis> ", in_quotes(basis), " is not supported, expected LBNL/Shirley-Chiu"});
   return detail::tensor_tree_reader(data, structure == "TensorTree3" ? 3 : 4).read().samples(name);
 }

@@ -81,7 +81,7 @@ GONIO_INLINE std::vector<zemax_bsdf_reader::plane> zemax_bsdf_reader::read_plane
     planes.push_back(read_plane());
   }
   if (const std::string_view more = words_.peek(); !more.empty())
-    words_.place().refuse({in_quotes(more), " follows the data, expected the end of the file"});
+    words_.position().refuse({in_quotes(more), " follows the data, expected the end of the file"});
   return planes;
 }
 
@@ -105,19 +105,19 @@ GONIO_INLINE void zemax_bsdf_reader::read_header() {
     else if (key == "ScatterRadial")
       radials_ = words_.read_list("ScatterRadial", 0.0, 180.0);
     else
-      words_.place().refuse({in_quotes(key), " is not a keyword of a Zemax BSDF file"});
+      words_.position().refuse({in_quotes(key), " is not a keyword of a Zemax BSDF file"});
   }
   require_lists();
 }
 
 GONIO_INLINE void zemax_bsdf_reader::read_scatter_type() {
   if (words_.read_one_of({"BRDF", "BTDF"}) == 1)
-    words_.place().refuse("the file holds transmission (BTDF), expected a BRDF");
+    words_.position().refuse("the file holds transmission (BTDF), expected a BRDF");
 }
 
 GONIO_INLINE void zemax_bsdf_reader::require_lists() const {
   const auto require = [this](const std::vector<double>& list, std::string_view keyword) {
-    if (list.empty()) gonio::refuse({words_.place().name, ": ", keyword, " is missing before the data"});
+    if (list.empty()) gonio::refuse({words_.position().name, ": ", keyword, " is missing before the data"});
   };
   require(rotations_, "SampleRotation");
   require(incidences_, "AngleOfIncidence");
@@ -133,7 +133,7 @@ GONIO_INLINE zemax_bsdf_reader::plane zemax_bsdf_reader::read_plane() {
     static_cast<void>(words_.read_number("TIS"));
     for (std::size_t i = 0; i < azimuths_.size() * radials_.size(); ++i) {
       values.push_back(words_.read_number("BRDF"));
-      require_float_range(values.back(), words_.place());
+      require_float_range(values.back(), words_.position());
     }
   }
   words_.read_if("DataEnd");
@@ -158,7 +158,7 @@ GONIO_INLINE sample_set zemax_bsdf_reader::samples(const std::vector<plane>& pla
         collector.add({spherical_direction(theta, phi), wo}, {values.data(), collector.channel_count()});
       }
   }
-  return std::move(collector).samples(words_.place().name);
+  return std::move(collector).samples(words_.position().name);
 }
 
 }  // namespace gonio::io::detail
@@ -166,14 +166,14 @@ GONIO_INLINE sample_set zemax_bsdf_reader::samples(const std::vector<plane>& pla
 namespace gonio::io {
 
 GONIO_INLINE bool looks_like_zemax_bsdf(std::string_view text) {
-  text_place place;
-  const std::string_view first = detail::word_reader(text, place).peek();
+  text_position position;
+  const std::string_view first = detail::word_reader(text, position).peek();
   return first == "Source" || first == "Symmetry" || first == "SpectralContent" || first == "ScatterType";
 }
 
 GONIO_INLINE sample_set read_zemax_bsdf(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
-  return detail::zemax_bsdf_reader(text, place).read();
+  text_position position{name, 0};
+  return detail::zemax_bsdf_reader(text, position).read();
 }
 
 GONIO_INLINE sample_set read_zemax_bsdf(const std::filesystem::path& path) {

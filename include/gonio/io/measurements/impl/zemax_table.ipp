@@ -80,7 +80,7 @@ class zemax_plane_writer {
   }
 
  private:
-  /// Returns six digits.
+  /// Returns a number in six digits.
   [[nodiscard]] static std::string number(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.6g", value);
@@ -110,9 +110,9 @@ class zemax_plane_writer {
 namespace gonio::io {
 
 GONIO_INLINE model::angle_grid_brdf read_zemax_table(std::string_view text, const std::string& name) {
-  text_place place{name, 0};
+  text_position position{name, 0};
   try {
-    return model::angle_grid_brdf(detail::zemax_bsdf_reader(text, place).read_grid());
+    return model::angle_grid_brdf(detail::zemax_bsdf_reader(text, position).read_grid());
   } catch (const error& why) {
     const std::string_view what = why.what();
     gonio::refuse({what.starts_with(name) ? "" : name + ": ", what});

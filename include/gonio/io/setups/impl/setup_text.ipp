@@ -27,8 +27,8 @@ namespace gonio::io::detail {
 
 GONIO_INLINE setup_text::setup_text(std::string_view text, const std::string& name, std::span<const setup_entry> known)
     : name_(name), known_(known) {
-  text_place place{name};
-  for_each_line(text, place, [&](std::string_view line) { add(read_rule(line, place), place); });
+  text_position position{name};
+  for_each_line(text, position, [&](std::string_view line) { add(read_rule(line, position), position); });
 }
 
 GONIO_INLINE std::size_t setup_text::count(std::string_view name, std::size_t which, std::size_t smallest) const {
@@ -47,28 +47,28 @@ GONIO_INLINE void setup_text::require(std::initializer_list<std::string_view> na
   gonio::refuse({name_, ": ", missing, " is missing"});
 }
 
-GONIO_INLINE void setup_text::add(text_rule rule, const text_place& place) {
+GONIO_INLINE void setup_text::add(text_rule rule, const text_position& position) {
   const auto known = std::ranges::find(known_, rule.name, &setup_entry::name);
   if (known == known_.end()) {
     std::string names;
     for (const setup_entry& entry : known_) names += (names.empty() ? "" : ", ") + std::string(entry.name);
-    place.refuse(in_quotes(rule.name) + " is unknown, expected one of " + names);
+    position.refuse(in_quotes(rule.name) + " is unknown, expected one of " + names);
   }
-  if (const placed_rule* before = find(rule.name))
-    place.refuse(in_quotes(rule.name) + " is already in line " + std::to_string(before->place.line));
+  if (const stated_rule* before = find(rule.name))
+    position.refuse(in_quotes(rule.name) + " is already in line " + std::to_string(before->position.line));
   if (known->or_numbers > 0)
-    require_numbers(rule, {known->numbers, known->or_numbers}, place);
+    require_numbers(rule, {known->numbers, known->or_numbers}, position);
   else
-    require_numbers(rule, {known->numbers}, place);
-  rules_.push_back({std::move(rule), place});
+    require_numbers(rule, {known->numbers}, position);
+  rules_.push_back({std::move(rule), position});
 }
 
-GONIO_INLINE const setup_text::placed_rule* setup_text::find(std::string_view name) const {
-  const auto found = std::ranges::find(rules_, name, [](const placed_rule& each) { return each.rule.name; });
+GONIO_INLINE const setup_text::stated_rule* setup_text::find(std::string_view name) const {
+  const auto found = std::ranges::find(rules_, name, [](const stated_rule& each) { return each.rule.name; });
   return found == rules_.end() ? nullptr : &*found;
 }
 
-GONIO_INLINE const setup_text::placed_rule& setup_text::at(std::string_view name) const {
+GONIO_INLINE const setup_text::stated_rule& setup_text::at(std::string_view name) const {
   require({name});
   return *find(name);
 }
@@ -100,7 +100,7 @@ GONIO_INLINE camera_intrinsics setup_intrinsics(const setup_text& text) {
   return intrinsics;
 }
 
-GONIO_INLINE pinhole_camera placed_camera(const setup_text& text, const camera_intrinsics& intrinsics) {
+GONIO_INLINE pinhole_camera posed_camera(const setup_text& text, const camera_intrinsics& intrinsics) {
   const Eigen::Vector3d position = text.vector("position");
   text.require({"target", "rotation"});
   for (const std::string_view other : {"target", "up"})
@@ -125,7 +125,7 @@ GONIO_INLINE lens_camera setup_camera(const setup_text& text, const std::optiona
   if (calibration)
     for (const std::string_view entry : {"size", "focal_length", "field_of_view", "principal_point", "distortion"})
       if (text.has(entry)) text.refuse(entry, "the calibration already states it, give only one of them");
-  const pinhole_camera pinhole = placed_camera(text, calibration ? calibration->intrinsics : setup_intrinsics(text));
+  const pinhole_camera pinhole = posed_camera(text, calibration ? calibration->intrinsics : setup_intrinsics(text));
   const lens_distortion distortion = calibration ? calibration->distortion : setup_distortion(text);
   return text.naming_file([&] { return lens_camera(pinhole, distortion); });
 }

@@ -104,7 +104,7 @@ namespace gonio::io::detail {
   return {};
 }
 
-/// Reads a number that may have a decimal comma or group marks. Its decimal mark sets the dialect's if that is unknown.
+/// Reads a number that may have a decimal comma or group marks. If the dialect's decimal mark is unknown, sets it.
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE const char* read_marked_number(std::string_view field, csv_dialect& dialect,
                                                                         double& value) {
   const std::string grouped = without_group_marks(field);

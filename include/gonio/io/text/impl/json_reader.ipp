@@ -19,15 +19,15 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE void json_reader::refuse(std::initializer_list<message_part> what) const {
-  place_.line = 1 + std::ranges::count(text_.substr(0, at_), '\n');
-  place_.refuse(what);
+  position_.line = 1 + std::ranges::count(text_.substr(0, at_), '\n');
+  position_.refuse(what);
 }
 
 GONIO_INLINE void json_reader::skip_blanks() { at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()); }
 
 GONIO_INLINE char json_reader::peek() {
   skip_blanks();
-  if (at_ == text_.size()) gonio::refuse({place_.name, ": the JSON text is cut off"});
+  if (at_ == text_.size()) gonio::refuse({position_.name, ": the JSON text is cut off"});
   return text_[at_];
 }
 
@@ -89,7 +89,7 @@ GONIO_INLINE std::string json_reader::read_string(std::string_view what) {
     else
       string += c;
   }
-  if (at_ == text_.size()) gonio::refuse({place_.name, ": the JSON text is cut off"});
+  if (at_ == text_.size()) gonio::refuse({position_.name, ": the JSON text is cut off"});
   ++at_;
   return string;
 }

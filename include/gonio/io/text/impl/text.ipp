@@ -23,7 +23,7 @@
 
 namespace gonio::io {
 
-[[gnu::cold]] GONIO_INLINE void text_place::refuse(std::initializer_list<message_part> what) const {
+[[gnu::cold]] GONIO_INLINE void text_position::refuse(std::initializer_list<message_part> what) const {
   gonio::refuse({name, ", line ", line, ": ", message_of(what)});
 }
 
@@ -59,9 +59,9 @@ GONIO_INLINE std::string_view without_byte_order_mark(std::string_view text) noe
   return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
-GONIO_INLINE bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line) {
+GONIO_INLINE bool next_whole_line(std::string_view& text, text_position& position, std::string_view& line) {
   while (!text.empty()) {
-    ++place.line;
+    ++position.line;
     std::size_t end = std::min(text.find('\n'), text.size());
     // A carriage return without a line feed ends a line, too.
     if (const std::size_t alone = text.substr(0, end).find('\r'); alone != std::string_view::npos && alone + 1 < end)
@@ -73,8 +73,8 @@ GONIO_INLINE bool next_whole_line(std::string_view& text, text_place& place, std
   return false;
 }
 
-GONIO_INLINE bool next_line(std::string_view& text, text_place& place, std::string_view& line) {
-  while (next_whole_line(text, place, line)) {
+GONIO_INLINE bool next_line(std::string_view& text, text_position& position, std::string_view& line) {
+  while (next_whole_line(text, position, line)) {
     line = trimmed(line);
     if (line.front() != '#') return true;
   }

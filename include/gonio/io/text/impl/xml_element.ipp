@@ -29,11 +29,12 @@ GONIO_INLINE std::string_view xml_element::next(std::string_view& rest, std::str
     if (!rest.starts_with(name) || after.empty() || ends_of_name.find(after.front()) == std::string_view::npos)
       continue;
     const std::size_t tag = rest.find('>');
-    if (tag == std::string_view::npos) place(rest).refuse({"the tag <", name, "> is not closed"});
+    if (tag == std::string_view::npos) position(rest).refuse({"the tag <", name, "> is not closed"});
     if (rest[tag - 1] == '/') return rest.substr(tag, 0);
     const std::string_view content = rest.substr(tag + 1);
     const std::size_t end = content.find(close);
-    if (end == std::string_view::npos) place(rest).refuse({"the element <", name, "> is not closed, expected ", close});
+    if (end == std::string_view::npos)
+      position(rest).refuse({"the element <", name, "> is not closed, expected ", close});
     rest = content.substr(end);
     return content.substr(0, end);
   }
@@ -51,7 +52,7 @@ GONIO_INLINE std::vector<xml_element> xml_element::all(std::string_view name) co
 GONIO_INLINE xml_element xml_element::first(std::string_view name) const {
   std::string_view rest = content_;
   const std::string_view found = next(rest, name);
-  if (found.data() == nullptr) place(content_).refuse({"there is no element <", name, "> here"});
+  if (found.data() == nullptr) position(content_).refuse({"there is no element <", name, "> here"});
   return {*this, found};
 }
 

@@ -234,7 +234,7 @@ GONIO_INLINE std::vector<std::byte> ranks::broadcast(std::vector<std::byte> byte
   return bytes;
 }
 
-// ---- what all ranks know -----------------------------------------------------------------------
+// ---- knowledge of all ranks --------------------------------------------------------------------
 
 GONIO_INLINE void ranks::together(const std::function<void()>& work) const {
   state_->failure = detail::failure_of(work);

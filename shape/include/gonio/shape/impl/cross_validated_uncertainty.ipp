@@ -133,8 +133,8 @@ GONIO_INLINE cross_validated_uncertainty::cross_validated_uncertainty(const shap
 GONIO_INLINE double cross_validated_uncertainty::squared_radius(double share) const {
   if (!(share > 0.0 && share < 1.0)) refuse({"a share of vertices must be above 0 and below 1, not ", share});
   const double of_measured = std::min(share * (1.0 + 1.0 / static_cast<double>(trials_)), 1.0);
-  const double place = std::ceil(of_measured * static_cast<double>(squared_distances_.size()));
-  return squared_distances_[static_cast<Eigen::Index>(place) - 1];
+  const double rank = std::ceil(of_measured * static_cast<double>(squared_distances_.size()));
+  return squared_distances_[static_cast<Eigen::Index>(rank) - 1];
 }
 
 GONIO_INLINE void cross_validated_uncertainty::add_vertex(const std::vector<point_columns>& errors,

@@ -34,13 +34,13 @@ GONIO_INLINE double fit_to_scan_result::squared_distance() const {
 }
 
 GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const {
-  return {functions, all_weights, places, solver};
+  return {functions, all_weights, correspondences, solver};
 }
 
-GONIO_INLINE void require_shown(const vertex_observations& places, const shape_model& model) {
+GONIO_INLINE void require_shown(const vertex_observations& correspondences, const shape_model& model) {
   constexpr Eigen::Index least = 10;
-  if (places.vertices.size() < least)
-    refuse({"the scan shows ", places.vertices.size(), " of the model's ", model.vertices(),
+  if (correspondences.vertices.size() < least)
+    refuse({"the scan shows ", correspondences.vertices.size(), " of the model's ", model.vertices(),
             " vertices, expected at least ", least, ": is its pose right?"});
 }
 
@@ -48,16 +48,16 @@ GONIO_INLINE void require_shown(const vertex_observations& places, const shape_m
 
 namespace gonio::shape::detail {
 
-GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, const point_columns& shape,
+GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& correspondences, const point_columns& shape,
                                             double position_error) {
   std::vector<double> distances;
-  distances.reserve(places.vertices.size());
-  for (const Eigen::Index vertex : places.vertices) {
-    const Eigen::Vector3d off = places.positions.col(std::ssize(distances)) - shape.col(vertex);
+  distances.reserve(correspondences.vertices.size());
+  for (const Eigen::Index vertex : correspondences.vertices) {
+    const Eigen::Vector3d off = correspondences.positions.col(std::ssize(distances)) - shape.col(vertex);
     distances.push_back(off.norm());
   }
   const double usual = 3.0 * std::max(position_error, upper_median(std::vector(distances)));
-  Eigen::VectorXd weights(places.positions.cols());
+  Eigen::VectorXd weights(correspondences.positions.cols());
   for (Eigen::Index i = 0; i < std::ssize(distances); ++i) {
     const double ratio = distances[i] / usual, root = 1.0 + ratio * ratio;
     weights[i] = 1.0 / (root * root);
@@ -72,21 +72,23 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   return weights;
 }
 
-[[nodiscard]] GONIO_INLINE vertex_observations weighted_places(const posed_scan& scan, const triangle_mesh& shape,
-                                                               const fit_to_scan_options& options,
-                                                               thread_count threads) {
-  vertex_observations places = closest_places(scan, shape, options.correspondence, threads);
-  if (!options.robust || places.vertices.empty()) return places;
-  const Eigen::VectorXd weights = inlier_weights(places, shape.vertices, options.position_error);
-  for (Eigen::Index i = 0; i < weights.size(); ++i) places.weights[i] *= weights[i];
-  return places;
+[[nodiscard]] GONIO_INLINE vertex_observations weighted_correspondences(const posed_scan& scan,
+                                                                        const triangle_mesh& shape,
+                                                                        const fit_to_scan_options& options,
+                                                                        thread_count threads) {
+  vertex_observations correspondences = closest_correspondences(scan, shape, options.correspondence, threads);
+  if (!options.robust || correspondences.vertices.empty()) return correspondences;
+  const Eigen::VectorXd weights = inlier_weights(correspondences, shape.vertices, options.position_error);
+  for (Eigen::Index i = 0; i < weights.size(); ++i) correspondences.weights[i] *= weights[i];
+  return correspondences;
 }
 
-/// Returns the weights of all functions for the observed positions. If the pose is held, those of the motion are 0.
+/// Returns the weights of all functions for the observed positions. If the pose is held, the motion's weights are 0.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd fitted_weights(const shape_with_motion& functions,
-                                                          const vertex_observations& places, const tikhonov& solver,
-                                                          bool holds_pose, thread_count threads) {
-  const located_samples located = locate_vertices(functions.cells(), places);
+                                                          const vertex_observations& correspondences,
+                                                          const tikhonov& solver, bool holds_pose,
+                                                          thread_count threads) {
+  const located_samples located = locate_vertices(functions.cells(), correspondences);
   if (!holds_pose) return basis_equations(functions, located, threads).solve(solver).weights.col(0);
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(functions.size());
   weights.head(functions.shape().size()) =
@@ -107,10 +109,10 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(part.vertices()));
   posed_scan posed{scan, pose, detail::surface_weights(scan, options.position_error)};
   for (int iteration = 1;; ++iteration) {
-    vertex_observations places = detail::weighted_places(posed, shape, options, threads);
-    require_shown(places, part);
+    vertex_observations correspondences = detail::weighted_correspondences(posed, shape, options, threads);
+    require_shown(correspondences, part);
     shape_with_motion functions(part.basis(), shape.vertices);
-    Eigen::VectorXd weights = detail::fitted_weights(functions, places, solver, options.holds_pose, threads);
+    Eigen::VectorXd weights = detail::fitted_weights(functions, correspondences, solver, options.holds_pose, threads);
     const auto [shape_weights, motion] = functions.split(weights);
     // Move the scan, not the shape.
     posed.pose = motion.inverse() * posed.pose;
@@ -118,8 +120,8 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
     const double change = (vertices - shape.vertices).norm();
     shape.vertices = std::move(vertices);
     if (change > tolerance && iteration < options.most_iterations) continue;
-    places = detail::weighted_places(posed, shape, options, threads);
-    return {posed.pose, std::move(functions), std::move(weights), std::move(places), solver, iteration};
+    correspondences = detail::weighted_correspondences(posed, shape, options, threads);
+    return {posed.pose, std::move(functions), std::move(weights), std::move(correspondences), solver, iteration};
   }
 }
 

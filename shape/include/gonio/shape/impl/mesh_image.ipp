@@ -47,13 +47,13 @@ namespace gonio::shape::detail {
 
 /// An image and the depth of each pixel.
 struct depth_image {
-  image picture;
+  image colours;
   std::vector<double> nearest;
 };
 
 /// Draws one triangle with corners (column, row, depth) and colours as columns.
 GONIO_INLINE void draw_triangle(depth_image& onto, const Eigen::Matrix3d& corners, const Eigen::Matrix3d& colours) {
-  const std::size_t pixels = onto.picture.shape(0);
+  const std::size_t pixels = onto.colours.shape(0);
   const auto last = static_cast<double>(pixels) - 1.0;
   const auto [left, right] = std::minmax({corners(0, 0), corners(0, 1), corners(0, 2)});
   const auto [top, bottom] = std::minmax({corners(1, 0), corners(1, 1), corners(1, 2)});
@@ -74,7 +74,7 @@ GONIO_INLINE void draw_triangle(depth_image& onto, const Eigen::Matrix3d& corner
       if (!(depth < nearest)) continue;
       nearest = depth;
       const Eigen::Vector3d colour = colours * shares;
-      set_pixel(onto.picture, row, column, colour.array());
+      set_pixel(onto.colours, row, column, colour.array());
     }
 }
 
@@ -111,7 +111,7 @@ GONIO_INLINE image image_of(const triangle_mesh& mesh, std::span<const rgb> colo
     }
     detail::draw_triangle(drawn, corners, corner_colours);
   }
-  return std::move(drawn.picture);
+  return std::move(drawn.colours);
 }
 
 }  // namespace gonio::shape

@@ -30,7 +30,7 @@ class joined_corners {
 
 GONIO_INLINE joined_corners::joined_corners(const triangle_columns& triangles) : parent_(triangles.size()) {
   std::iota(parent_.begin(), parent_.end(), Eigen::Index{0});
-  std::map<std::pair<int, int>, Eigen::Index> from;  // the corner where an edge begins, by its vertices
+  std::map<std::pair<int, int>, Eigen::Index> from;  // the first corner of each edge, by the edge's vertices
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     for (Eigen::Index side = 0; side < 3; ++side)
       from[{triangles(side, t), triangles((side + 1) % 3, t)}] = 3 * t + side;
@@ -65,9 +65,9 @@ GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<
   std::vector<Eigen::Index> former;
   triangle_mesh part{{}, triangles};
   for (Eigen::Index corner = 0; corner < triangles.size(); ++corner) {
-    const auto [place, is_new] = numbers.try_emplace(corners.group_of(corner), static_cast<int>(former.size()));
+    const auto [entry, is_new] = numbers.try_emplace(corners.group_of(corner), static_cast<int>(former.size()));
     if (is_new) former.push_back(triangles(corner % 3, corner / 3));
-    part.triangles(corner % 3, corner / 3) = place->second;
+    part.triangles(corner % 3, corner / 3) = entry->second;
   }
   part.vertices = chosen_columns(mesh.vertices, former);
   return part;

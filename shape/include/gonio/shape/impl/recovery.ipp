@@ -38,11 +38,11 @@ namespace gonio::shape {
 GONIO_INLINE recovered_shape recover(const shape_model& model, const surface_index& scan,
                                      const similarity_transform& pose, const recovery_options& options,
                                      thread_count threads) {
-  const fit_to_scan_result begin = fit_to_scan(model, scan, pose, options.coarse, threads);
-  detail::require_of_family(begin, model, options.confidence);
-  fit_to_scan_result fit = fit_to_scan(model, scan, begin.pose, options.fine, threads);
+  const fit_to_scan_result initial = fit_to_scan(model, scan, pose, options.coarse, threads);
+  detail::require_of_family(initial, model, options.confidence);
+  fit_to_scan_result fit = fit_to_scan(model, scan, initial.pose, options.fine, threads);
   triangle_mesh surface = model.mesh(fit.shape());
-  return {std::move(surface), fit.places, fit.pose, fit};
+  return {std::move(surface), fit.correspondences, fit.pose, fit};
 }
 
 }  // namespace gonio::shape
@@ -55,8 +55,8 @@ namespace gonio::shape::detail {
                                                          const algorithm_1_options& options, thread_count threads) {
   const truncated_svd solver{options.last_explained_variance};
   const std::vector<bool> marks = marks_of(known, model.vertices());
-  std::vector<Eigen::Index> place(marks.size(), 0);  // index of a known vertex among the known
-  for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i) place[known.vertices[i]] = i;
+  std::vector<Eigen::Index> column_of(marks.size(), 0);  // the column of each known vertex in `known.positions`
+  for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i) column_of[known.vertices[i]] = i;
   const auto is_known = [&](Eigen::Index vertex) { return bool{marks[vertex]}; };
   point_columns predicted(3, model.vertices());
   for_each_index(
@@ -65,7 +65,7 @@ namespace gonio::shape::detail {
         vertex_observations near{nearest_along_surface(mean, model.topology(), vertex, is_known, options.neighbours),
                                  {}};
         std::vector<Eigen::Index> columns;
-        for (const Eigen::Index neighbour : near.vertices) columns.push_back(place[neighbour]);
+        for (const Eigen::Index neighbour : near.vertices) columns.push_back(column_of[neighbour]);
         near.positions = chosen_columns(known.positions, columns);
         near.normals = chosen_columns(known.normals, columns);
         near.tangential = known.tangential;
@@ -87,18 +87,18 @@ namespace gonio::shape {
 GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const surface_index& scan,
                                                  const similarity_transform& pose, const algorithm_1_options& options,
                                                  thread_count threads) {
-  fit_to_scan_result begin = fit_to_scan(model, scan, pose, options.coarse, threads);
-  detail::require_of_family(begin, model, options.confidence);
-  return recover_algorithm_1(model, scan, std::move(begin), options, threads);
+  fit_to_scan_result initial = fit_to_scan(model, scan, pose, options.coarse, threads);
+  detail::require_of_family(initial, model, options.confidence);
+  return recover_algorithm_1(model, scan, std::move(initial), options, threads);
 }
 
 GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const surface_index& scan,
-                                                 fit_to_scan_result begin, const algorithm_1_options& options,
+                                                 fit_to_scan_result initial, const algorithm_1_options& options,
                                                  thread_count threads) {
   const triangle_mesh mean = model.mean();
-  posed_scan posed{scan, begin.pose};
-  triangle_mesh shape = model.mesh(begin.shape());
-  vertex_observations known = closest_places(posed, shape, options.correspondence, threads);
+  posed_scan posed{scan, initial.pose};
+  triangle_mesh shape = model.mesh(initial.shape());
+  vertex_observations known = closest_correspondences(posed, shape, options.correspondence, threads);
   // Aligns the shape with the mean and moves the scan by the same transform, predicts all vertices, and finds them on
   // the scan. Returns the change of the shape, root mean square in mm.
   const auto improve = [&](auto&& predict) {
@@ -114,7 +114,7 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
     point_columns predicted = predict();
     const double change = (predicted - shape.vertices).norm() / std::sqrt(static_cast<double>(model.vertices()));
     shape.vertices = std::move(predicted);
-    known = closest_places(posed, shape, options.correspondence, threads);
+    known = closest_correspondences(posed, shape, options.correspondence, threads);
     require_shown(known, model);
     return change;
   };
@@ -125,7 +125,7 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
   }
   for (int round = 0; round < options.local_rounds; ++round)
     improve([&] { return detail::predict_locally(model, mean, known, options, threads); });
-  return {std::move(shape), std::move(known), posed.pose, std::move(begin)};
+  return {std::move(shape), std::move(known), posed.pose, std::move(initial)};
 }
 
 }  // namespace gonio::shape

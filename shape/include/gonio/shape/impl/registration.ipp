@@ -36,13 +36,14 @@ GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double 
 namespace gonio::shape::detail {
 
 /// Returns the intersections of the scan with lines along the smoothed normals of a shape.
-[[nodiscard]] GONIO_INLINE vertex_observations places_along_normals(const posed_scan& scan, const shape_model& model,
-                                                                    const triangle_mesh& shape,
-                                                                    const registration_options& options,
-                                                                    thread_count threads) {
+[[nodiscard]] GONIO_INLINE vertex_observations correspondences_along_normals(const posed_scan& scan,
+                                                                             const shape_model& model,
+                                                                             const triangle_mesh& shape,
+                                                                             const registration_options& options,
+                                                                             thread_count threads) {
   const point_columns normals = unit_columns(averaged_over_neighbours(model.topology(), vertex_normals(shape)));
   const Eigen::Index count = shape.vertices.cols();
-  point_columns places(3, shape.vertices.cols());
+  point_columns positions(3, shape.vertices.cols());
   std::vector<char> shown(count, 0);
   for_each_index(
       count, 128,
@@ -51,11 +52,11 @@ namespace gonio::shape::detail {
         const auto found = scan.along(shape.vertices.col(v), normals.col(v), options.reach);
         if (!found || found->on_border) return;
         if (scan.normal(*found).dot(normals.col(v)) < options.fit.correspondence.normal_agreement) return;
-        places.col(v) = found->position;
+        positions.col(v) = found->position;
         shown[v] = 1;
       },
       threads);
-  return shown_vertices(places, normals, shown, options.fit.correspondence.tangential);
+  return shown_vertices(positions, normals, shown, options.fit.correspondence.tangential);
 }
 
 /// Returns a message for the first test that fails; empty if all pass.
@@ -94,17 +95,19 @@ GONIO_INLINE registration register_scan(const shape_model& model, const surface_
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(model.vertices()));
   for (int round = 0; round < options.rounds; ++round) {
     const triangle_mesh smoothed = model.mesh(averaged_over_neighbours(model.topology(), found.vertices));
-    vertex_observations places = detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
-    require_shown(places, model);
+    vertex_observations correspondences =
+        detail::correspondences_along_normals({scan, found.pose}, model, smoothed, options, threads);
+    require_shown(correspondences, model);
     if (options.realigns) {
-      const similarity_transform step = align(places.positions, chosen_columns(fitted, places.vertices));
+      const similarity_transform step =
+          align(correspondences.positions, chosen_columns(fitted, correspondences.vertices));
       found.pose = step * found.pose;
-      places.positions = step(places.positions);
+      correspondences.positions = step(correspondences.positions);
     }
     point_columns next = smoothed.vertices;
-    for (Eigen::Index i = 0; i < std::ssize(places.vertices); ++i)
-      next.col(places.vertices[i]) = places.positions.col(i);
-    found.missing = 1.0 - static_cast<double>(places.vertices.size()) / static_cast<double>(model.vertices());
+    for (Eigen::Index i = 0; i < std::ssize(correspondences.vertices); ++i)
+      next.col(correspondences.vertices[i]) = correspondences.positions.col(i);
+    found.missing = 1.0 - static_cast<double>(correspondences.vertices.size()) / static_cast<double>(model.vertices());
     const double change = (next - found.vertices).norm();
     found.vertices = std::move(next);
     if (change <= tolerance) break;

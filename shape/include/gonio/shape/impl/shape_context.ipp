@@ -65,15 +65,15 @@ struct point_tree::built_tree : k_d_tree<3> {
 
 GONIO_INLINE point_tree::point_tree(const point_columns& points) : tree_(std::make_shared<const built_tree>(points)) {}
 
-GONIO_INLINE double point_tree::squared_distance(const Eigen::Vector3d& place) const {
+GONIO_INLINE double point_tree::squared_distance(const Eigen::Vector3d& point) const {
   std::uint32_t index = 0;
   double squared = 0.0;
-  tree_->nearest(place.data(), 1, &index, &squared);
+  tree_->nearest(point.data(), 1, &index, &squared);
   return squared;
 }
 
-GONIO_INLINE std::vector<Eigen::Index> point_tree::within(double radius, const Eigen::Vector3d& place) const {
-  return tree_->within(radius, place.data());
+GONIO_INLINE std::vector<Eigen::Index> point_tree::within(double radius, const Eigen::Vector3d& centre) const {
+  return tree_->within(radius, centre.data());
 }
 
 }  // namespace gonio::shape::detail
@@ -92,12 +92,12 @@ GONIO_INLINE std::optional<Eigen::Matrix3d> context_frame(const Eigen::Vector3d&
   return frame;
 }
 
-GONIO_INLINE Eigen::Index context_bin(const Eigen::Vector3d& place, const shape_context_options& options) {
+GONIO_INLINE Eigen::Index context_bin(const Eigen::Vector3d& point, const shape_context_options& options) {
   const auto bin = [](double share, Eigen::Index bins) {
     return std::clamp(static_cast<Eigen::Index>(share * static_cast<double>(bins)), Eigen::Index{0}, bins - 1);
   };
-  const double r = place.norm(), theta = std::acos(std::clamp(place.z() / r, -1.0, 1.0)),
-               phi = std::atan2(place.y(), place.x());
+  const double r = point.norm(), theta = std::acos(std::clamp(point.z() / r, -1.0, 1.0)),
+               phi = std::atan2(point.y(), point.x());
   const Eigen::Index radial = bin(r / options.radius, options.radial_bins),
                      polar = bin(theta / std::numbers::pi, options.polar_bins),
                      azimuthal = bin(0.5 + phi / (2.0 * std::numbers::pi), options.azimuthal_bins);
@@ -113,11 +113,11 @@ GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (Eigen::Index corner = 0; corner < 3; ++corner)
       nearest[mesh.triangles(corner, t)] = std::numeric_limits<double>::infinity();
-  const auto nearer_of = [&](const Eigen::Vector3d& place) {
+  const auto nearer_of = [&](const Eigen::Vector3d& point) {
     std::vector<double> nearer = nearest;
     for (Eigen::Index v = 0; v < vertices; ++v) {
       double& square = nearer[v];
-      const Eigen::Vector3d away = mesh.vertices.col(v) - place;
+      const Eigen::Vector3d away = mesh.vertices.col(v) - point;
       square = std::min(square, away.squaredNorm());
     }
     return nearer;
@@ -155,8 +155,8 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
     if (!frame) return;
     for (const Eigen::Index neighbour : tree.within(options.radius, origin)) {
       const Eigen::Vector3d away = mesh.vertices.col(neighbour) - origin,
-                            place(frame->col(0).dot(away), frame->col(1).dot(away), frame->col(2).dot(away));
-      if (place.squaredNorm() > 0.0) histograms(context_bin(place, options), point) += areas[neighbour];
+                            local(frame->col(0).dot(away), frame->col(1).dot(away), frame->col(2).dot(away));
+      if (local.squaredNorm() > 0.0) histograms(context_bin(local, options), point) += areas[neighbour];
     }
   };
   for_each_index(

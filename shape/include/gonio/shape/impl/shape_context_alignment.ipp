@@ -80,15 +80,15 @@ GONIO_INLINE std::pair<similarity_transform, Eigen::Index> robust_pose(const mat
 
 struct described_points {
   shape_descriptors descriptors;
-  point_columns places;
+  point_columns positions;
 };
 
 [[nodiscard]] GONIO_INLINE described_points described(const triangle_mesh& mesh,
                                                       const shape_context_alignment_options& options,
                                                       thread_count threads) {
   shape_descriptors found = describe(mesh, spread_vertices(mesh, options.points), options.context, threads);
-  point_columns places = chosen_columns(mesh.vertices, found.vertex);
-  return {std::move(found), std::move(places)};
+  point_columns positions = chosen_columns(mesh.vertices, found.vertex);
+  return {std::move(found), std::move(positions)};
 }
 
 GONIO_INLINE void require_points(const shape_descriptors& descriptors, const char* what) {
@@ -129,8 +129,8 @@ GONIO_INLINE pre_alignment shape_context_matcher::align(const triangle_mesh& sca
   detail::matched_points pairs{point_columns(3, std::ssize(matches)), {}};
   pairs.onto.resizeLike(pairs.from);
   for (Eigen::Index i = 0; i < std::ssize(matches); ++i) {
-    pairs.from.col(i) = found.places.col(matches[i].from);
-    pairs.onto.col(i) = model_->points.places.col(matches[i].onto);
+    pairs.from.col(i) = found.positions.col(matches[i].from);
+    pairs.onto.col(i) = model_->points.positions.col(matches[i].onto);
   }
   const auto count = static_cast<double>(matches.size());
   const auto first = std::max<Eigen::Index>(3, std::lround(options_.significant * count));

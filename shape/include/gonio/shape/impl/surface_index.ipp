@@ -147,15 +147,15 @@ class box_tree {
     Eigen::Index size = 0;
     pending[size++] = {bound(nodes_[0].box), 0};
     while (size > 0) {
-      const auto [least, place] = pending[--size];
+      const auto [least, number] = pending[--size];
       if (least > limit) continue;
-      const node& here = nodes_[place];
+      const node& here = nodes_[number];
       if (here.second == 0) {
         for (Eigen::Index i = here.begin; i < here.end; ++i) limit = visit(order_[i]);
         continue;
       }
       pending[size] = {bound(nodes_[here.second].box), here.second};
-      pending[size + 1] = {bound(nodes_[place + 1].box), place + 1};
+      pending[size + 1] = {bound(nodes_[number + 1].box), number + 1};
       if (pending[size].first < pending[size + 1].first) std::swap(pending[size], pending[size + 1]);
       size += 2;
     }
@@ -193,9 +193,9 @@ GONIO_INLINE Eigen::Index box_tree::build(const std::vector<extent>& boxes, Eige
     all.include(box.high);
     centres.include(box.centre());
   }
-  const Eigen::Index place = nodes_.size(), middle = begin + (end - begin) / 2;
+  const Eigen::Index number = nodes_.size(), middle = begin + (end - begin) / 2;
   nodes_.push_back({centred_box(all), begin, end, 0});
-  if (end - begin <= leaf_size) return place;
+  if (end - begin <= leaf_size) return number;
   Eigen::Index axis = 0;
   for (const Eigen::Index other : {Eigen::Index{1}, Eigen::Index{2}})
     if (centres.high[other] - centres.low[other] > centres.high[axis] - centres.low[axis]) axis = other;
@@ -207,8 +207,8 @@ GONIO_INLINE Eigen::Index box_tree::build(const std::vector<extent>& boxes, Eige
   std::ranges::nth_element(at(begin), at(middle), at(end), {}, key);
   build(boxes, begin, middle);
   const Eigen::Index second = build(boxes, middle, end);
-  nodes_[place].second = second;
-  return place;
+  nodes_[number].second = second;
+  return number;
 }
 
 /// The feature of a triangle that contains a point: a corner, the side that begins at a corner, or neither (inside).
@@ -273,10 +273,10 @@ struct surface_index::built_surface {
         triangle_normals(unit_columns(area_normals(mesh))),
         vertex_normals(detail::angle_weighted(mesh, triangle_normals)) {}
 
-  [[nodiscard]] bool is_on_border(const surface_point& place) const {
-    const auto [corner, side] = detail::feature_of(place.barycentric);
-    if (corner) return topology.on_border(mesh.triangles(*corner, place.triangle));
-    return side && across(*side, place.triangle) < 0;
+  [[nodiscard]] bool is_on_border(const surface_point& point) const {
+    const auto [corner, side] = detail::feature_of(point.barycentric);
+    if (corner) return topology.on_border(mesh.triangles(*corner, point.triangle));
+    return side && across(*side, point.triangle) < 0;
   }
 
   triangle_mesh mesh;
@@ -345,19 +345,19 @@ GONIO_INLINE std::optional<surface_point> surface_index::along(const Eigen::Vect
   return best;
 }
 
-GONIO_INLINE Eigen::Vector3d surface_index::pseudonormal(const surface_point& place) const {
-  const auto [corner, side] = detail::feature_of(place.barycentric);
-  if (corner) return surface_->vertex_normals.col(mesh().triangles(*corner, place.triangle));
-  const Eigen::Vector3d normal = surface_->triangle_normals.col(place.triangle);
-  const int neighbour = side ? surface_->across(*side, place.triangle) : -1;
+GONIO_INLINE Eigen::Vector3d surface_index::pseudonormal(const surface_point& point) const {
+  const auto [corner, side] = detail::feature_of(point.barycentric);
+  if (corner) return surface_->vertex_normals.col(mesh().triangles(*corner, point.triangle));
+  const Eigen::Vector3d normal = surface_->triangle_normals.col(point.triangle);
+  const int neighbour = side ? surface_->across(*side, point.triangle) : -1;
   if (neighbour < 0) return normal;
   return unit_vector(normal + surface_->triangle_normals.col(neighbour));
 }
 
 GONIO_INLINE double surface_index::signed_distance(const Eigen::Vector3d& point) const {
-  const surface_point place = closest(point);
-  const Eigen::Vector3d apart = point - place.position;
-  return apart.dot(pseudonormal(place)) < 0.0 ? -place.distance : place.distance;
+  const surface_point nearest = closest(point);
+  const Eigen::Vector3d apart = point - nearest.position;
+  return apart.dot(pseudonormal(nearest)) < 0.0 ? -nearest.distance : nearest.distance;
 }
 
 GONIO_INLINE std::vector<surface_point> closest_points(const surface_index& surface, const point_columns& points,

@@ -20,8 +20,8 @@ GONIO_INLINE Eigen::Matrix3d triangle_mesh::corners(Eigen::Index triangle) const
 }
 
 GONIO_INLINE double triangle_mesh::angle(Eigen::Index triangle, Eigen::Index corner) const {
-  const auto place = [&](Eigen::Index of) -> Eigen::Vector3d { return vertices.col(triangles(of % 3, triangle)); };
-  const Eigen::Vector3d here = place(corner), next = place(corner + 1) - here, last = place(corner + 2) - here;
+  const auto position = [&](Eigen::Index of) -> Eigen::Vector3d { return vertices.col(triangles(of % 3, triangle)); };
+  const Eigen::Vector3d here = position(corner), next = position(corner + 1) - here, last = position(corner + 2) - here;
   return std::atan2(next.cross(last).norm(), next.dot(last));
 }
 

@@ -10,7 +10,7 @@ namespace gonio::io::detail {
 
 /// Reads the bytes of a PLY file. Throws gonio::error that names the file, and the line if it is text, for files that
 /// `read_mesh` refuses.
-[[nodiscard]] mesh_parts read_ply(std::string_view text, text_place place);
+[[nodiscard]] mesh_parts read_ply(std::string_view text, text_position position);
 
 }  // namespace gonio::io::detail
 

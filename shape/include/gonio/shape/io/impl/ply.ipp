@@ -86,7 +86,7 @@ struct ply_header {
 /// Takes the header off the front of a PLY file.
 class ply_header_reader {
  public:
-  ply_header_reader(std::string_view& text, text_place& place) : text_(text), place_(place) {}
+  ply_header_reader(std::string_view& text, text_position& position) : text_(text), position_(position) {}
 
   [[nodiscard]] ply_header read();
 
@@ -109,7 +109,7 @@ class ply_header_reader {
   void check(const ply_element& element) const;
 
   std::string_view& text_;
-  text_place& place_;
+  text_position& position_;
   ply_header header_;
 };
 
@@ -117,8 +117,8 @@ class ply_header_reader {
 
 class ply_binary_rows {
  public:
-  ply_binary_rows(std::string_view body, bool swapped, const text_place& place)
-      : bytes_(std::as_bytes(std::span(body)), place.name), swapped_(swapped), name_(place.name) {}
+  ply_binary_rows(std::string_view body, bool swapped, const text_position& position)
+      : bytes_(std::as_bytes(std::span(body)), position.name), swapped_(swapped), name_(position.name) {}
 
   void begin_row() const noexcept {}
   [[nodiscard]] double read(const ply_type& type) { return type.read(bytes_.read_bytes(type.size), swapped_); }
@@ -138,13 +138,13 @@ class ply_binary_rows {
 /// The rows of an ascii PLY, one per line.
 class ply_text_rows {
  public:
-  ply_text_rows(std::string_view body, text_place& place) : left_(body), place_(place) {}
+  ply_text_rows(std::string_view body, text_position& position) : left_(body), position_(position) {}
 
   void begin_row() {
     if (!next_line()) refuse("the file is truncated or its counts are wrong");
   }
   [[nodiscard]] double read(const ply_type&) {
-    return read_number(read_field(), place_, [] { return std::string("a value"); });
+    return read_number(read_field(), position_, [] { return std::string("a value"); });
   }
   void skip(const ply_type&, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) static_cast<void>(read_field());
@@ -153,7 +153,7 @@ class ply_text_rows {
   void end() {
     if (next_line()) refuse(in_quotes(row_) + " follows the data that the header counts");
   }
-  [[noreturn]] void refuse(const std::string& what) const { place_.refuse(what); }
+  [[noreturn]] void refuse(const std::string& what) const { position_.refuse(what); }
 
  private:
   /// Goes to the next non-empty line, if there is one.
@@ -161,7 +161,7 @@ class ply_text_rows {
   [[nodiscard]] std::string_view read_field();
 
   std::string_view left_, row_;
-  text_place& place_;
+  text_position& position_;
 };
 
 template <class Rows>
@@ -212,17 +212,17 @@ template <class Rows>
 }
 
 GONIO_INLINE ply_header ply_header_reader::read() {
-  if (!text_.starts_with("ply")) gonio::refuse(place_.name + ": is not a PLY file, expected it to begin with 'ply'");
+  if (!text_.starts_with("ply")) gonio::refuse(position_.name + ": is not a PLY file, expected it to begin with 'ply'");
   for (std::string_view line = next_line(); line != "end_header"; line = next_line()) add(line);
-  if (!header_.encoding) place_.refuse("the header ends without a format");
+  if (!header_.encoding) position_.refuse("the header ends without a format");
   for (const ply_element& element : header_.elements) check(element);
   return header_;
 }
 
 GONIO_INLINE std::string_view ply_header_reader::next_line() {
-  ++place_.line;
+  ++position_.line;
   const std::size_t end = text_.find('\n');
-  if (end == std::string_view::npos) place_.refuse("the file is truncated: its header has no line 'end_header'");
+  if (end == std::string_view::npos) position_.refuse("the file is truncated: its header has no line 'end_header'");
   const std::string_view line = trimmed(text_.substr(0, end));
   text_.remove_prefix(end + 1);
   return line;
@@ -230,20 +230,20 @@ GONIO_INLINE std::string_view ply_header_reader::next_line() {
 
 GONIO_INLINE void ply_header_reader::add(std::string_view line) {
   const std::string_view whole = line, keyword = read_word(line);
-  if (keyword == "comment" || keyword == "obj_info" || (place_.line == 1 && whole == "ply")) return;
+  if (keyword == "comment" || keyword == "obj_info" || (position_.line == 1 && whole == "ply")) return;
   if (keyword == "format") return set_encoding(trimmed(line));
   if (keyword == "element") return add_element(line);
   if (keyword == "property") return add_property(line);
-  place_.refuse(in_quotes(whole) + ", expected format, comment, element, property or end_header");
+  position_.refuse(in_quotes(whole) + ", expected format, comment, element, property or end_header");
 }
 
 GONIO_INLINE void ply_header_reader::set_encoding(std::string_view format) {
-  if (header_.encoding) place_.refuse("the format is given twice");
+  if (header_.encoding) position_.refuse("the format is given twice");
   if (format == "ascii 1.0") header_.encoding = ply_encoding::ascii;
   if (format == "binary_little_endian 1.0") header_.encoding = ply_encoding::little_endian;
   if (format == "binary_big_endian 1.0") header_.encoding = ply_encoding::big_endian;
   if (!header_.encoding)
-    place_.refuse("format " + in_quotes(format) + ", expected ascii, binary_little_endian or binary_big_endian 1.0");
+    position_.refuse("format " + in_quotes(format) + ", expected ascii, binary_little_endian or binary_big_endian 1.0");
 }
 
 GONIO_INLINE void ply_header_reader::add_element(std::string_view line) {
@@ -252,18 +252,18 @@ GONIO_INLINE void ply_header_reader::add_element(std::string_view line) {
   std::size_t count = 0;
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
   if (failed != std::errc() || end != digits.data() + digits.size())
-    place_.refuse("element " + in_quotes(name) + ": " + in_quotes(digits) + ", expected a count");
+    position_.refuse("element " + in_quotes(name) + ": " + in_quotes(digits) + ", expected a count");
   if (std::ranges::find(header_.elements, name, &ply_element::name) != header_.elements.end())
-    place_.refuse("element " + in_quotes(name) + " is given twice");
+    position_.refuse("element " + in_quotes(name) + " is given twice");
   header_.elements.push_back({name, count, {}});
   if (name != "vertex") return;
   if (std::cmp_greater(count, mesh_vertex_limit))
-    place_.refuse(std::to_string(count) + " vertices, expected less than 2^31");
+    position_.refuse(std::to_string(count) + " vertices, expected less than 2^31");
   header_.vertices = count;
 }
 
 GONIO_INLINE void ply_header_reader::add_property(std::string_view line) {
-  if (header_.elements.empty()) place_.refuse("a property comes before the first element");
+  if (header_.elements.empty()) position_.refuse("a property comes before the first element");
   ply_element& element = header_.elements.back();
   std::string_view type = read_word(line);
   std::optional<ply_type> count;
@@ -275,16 +275,16 @@ GONIO_INLINE void ply_header_reader::add_property(std::string_view line) {
   property.role = role_of(element, property);
   const bool must_be_whole = property.role == ply_role::corners;
   if ((count && !count->whole) || (must_be_whole && !property.value.whole))
-    place_.refuse("property " + in_quotes(property.name) + ": a count or vertex number must have an integer type");
+    position_.refuse("property " + in_quotes(property.name) + ": a count or vertex number must have an integer type");
   if (property.role != ply_role::ignored && element.has(property.role))
-    place_.refuse("property " + in_quotes(property.name) + " is given twice");
+    position_.refuse("property " + in_quotes(property.name) + " is given twice");
   element.properties.push_back(property);
 }
 
 GONIO_INLINE ply_type ply_header_reader::type_named(std::string_view name) const {
   const auto type = std::ranges::find_if(
       ply_types, [&](const ply_type& known) { return known.name == name || known.newer_name == name; });
-  if (type == ply_types.end()) place_.refuse(in_quotes(name) + " is not a PLY type");
+  if (type == ply_types.end()) position_.refuse(in_quotes(name) + " is not a PLY type");
   return *type;
 }
 
@@ -298,11 +298,11 @@ GONIO_INLINE ply_role ply_header_reader::role_of(const ply_element& element, con
 
 GONIO_INLINE void ply_header_reader::check(const ply_element& element) const {
   if (element.properties.empty() && element.count > 0)
-    place_.refuse("element " + in_quotes(element.name) + " has no properties");
+    position_.refuse("element " + in_quotes(element.name) + " has no properties");
   if (element.name == "vertex" && !(element.has(ply_role::x) && element.has(ply_role::y) && element.has(ply_role::z)))
-    place_.refuse("element 'vertex' lacks a property x, y or z");
+    position_.refuse("element 'vertex' lacks a property x, y or z");
   if (element.name == "face" && !element.has(ply_role::corners))
-    place_.refuse("element 'face' lacks a list vertex_indices");
+    position_.refuse("element 'face' lacks a list vertex_indices");
 }
 
 GONIO_INLINE void ply_binary_rows::refuse(const std::string& what) const { gonio::refuse(name_ + ": " + what); }
@@ -313,7 +313,7 @@ GONIO_INLINE void ply_text_rows::end_row() const {
 }
 
 GONIO_INLINE bool ply_text_rows::next_line() {
-  for (row_ = {}; row_.empty() && !left_.empty(); ++place_.line) {
+  for (row_ = {}; row_.empty() && !left_.empty(); ++position_.line) {
     const std::size_t end = left_.find('\n');
     row_ = trimmed(left_.substr(0, end));
     left_.remove_prefix(end == std::string_view::npos ? left_.size() : end + 1);
@@ -327,10 +327,10 @@ GONIO_INLINE std::string_view ply_text_rows::read_field() {
   return field;
 }
 
-GONIO_INLINE mesh_parts read_ply(std::string_view text, text_place place) {
-  const ply_header header = ply_header_reader(text, place).read();
-  if (header.encoding == ply_encoding::ascii) return read_ply_elements(header, ply_text_rows(text, place));
-  return read_ply_elements(header, ply_binary_rows(text, header.encoding == ply_encoding::big_endian, place));
+GONIO_INLINE mesh_parts read_ply(std::string_view text, text_position position) {
+  const ply_header header = ply_header_reader(text, position).read();
+  if (header.encoding == ply_encoding::ascii) return read_ply_elements(header, ply_text_rows(text, position));
+  return read_ply_elements(header, ply_binary_rows(text, header.encoding == ply_encoding::big_endian, position));
 }
 
 }  // namespace gonio::io::detail

@@ -28,18 +28,18 @@ using pose_matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 /// Reads four lines of numbers.
 [[nodiscard]] GONIO_INLINE pose_matrix read_matrix(std::string_view text, const std::string& name) {
-  text_place place{name};
+  text_position position{name};
   std::vector<double> numbers;
-  for_each_line(text, place, [&](std::string_view line) {
+  for_each_line(text, position, [&](std::string_view line) {
     const std::string named = "matrix " + std::string(line);
-    const text_rule row = read_rule(named, place);
-    require_numbers(row, {4}, place);
+    const text_rule row = read_rule(named, position);
+    require_numbers(row, {4}, position);
     numbers.insert(numbers.end(), row.numbers.begin(), row.numbers.end());
   });
   if (numbers.size() != 16) gonio::refuse({name, ": has ", numbers.size() / 4, " lines of numbers, expected 4"});
   const pose_matrix matrix = pose_matrix::Map(numbers.data());
   if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
-    place.refuse("the last line of a pose's matrix must be 0 0 0 1");
+    position.refuse("the last line of a pose's matrix must be 0 0 0 1");
   return matrix;
 }
 
@@ -55,10 +55,10 @@ using pose_matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 /// Returns whether a text names its entries.
 [[nodiscard]] GONIO_INLINE bool has_names(std::string_view text) {
-  text_place place{};
+  text_position position{};
   std::string_view line;
   text = without_byte_order_mark(text);
-  if (!next_line(text, place, line)) return false;
+  if (!next_line(text, position, line)) return false;
   return (line.front() >= 'a' && line.front() <= 'z') || (line.front() >= 'A' && line.front() <= 'Z');
 }
 

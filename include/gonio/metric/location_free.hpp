@@ -11,7 +11,7 @@ namespace gonio {
 /// Base of a metric with `static double map(double rho)`, `static double unmap(double y)` (or non-static members), and
 /// `unmap_all(values)` on a span of floats. Makes it an `error_metric` that also maps whole rows back.
 template <class Metric>
-class place_free_metric {
+class location_free_metric {
  public:
   [[nodiscard]] double forward(double rho, const auto& /*at*/) const noexcept { return metric().map(rho); }
   [[nodiscard]] double inverse(double y, const auto& /*at*/) const noexcept { return metric().unmap(y); }

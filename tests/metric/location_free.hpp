@@ -1,7 +1,7 @@
 #pragma once
 /// Checks of every metric that is the same at all locations.
 
-#include <gonio/metric/place_free.hpp>
+#include <gonio/metric/location_free.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -14,7 +14,7 @@
 /// same at a cell and a location, and that a row of cells is mapped back like single cells.
 template <gonio::row_metric Metric>
 requires gonio::smooth_metric<Metric>
-void check_place_free(const Metric& metric) {
+void check_location_free(const Metric& metric) {
   const gonio::valid_cells cells(gonio::grid({4, 4, 4}));
   CHECK(rc::check([&] {
     const double size = std::exp(*rc::gen::inRange(-1500, 900) * 0.01), rho = *rc::gen::element(-1.0, 1.0) * size;
