@@ -31,6 +31,7 @@ export async function launch(...more) {
 // A page, and what it complained of and asked for.
 export async function open(browser, file, options = {}) {
   const page = await browser.newPage({ viewport: { width: 1200, height: 900 }, ...options });
+  page.setDefaultTimeout(180000); // a busy machine draws by software for a minute
   const complaints = [], requests = [];
   page.on("console", (message) => { if (["error", "warning"].includes(message.type())) complaints.push(message.text()); });
   page.on("pageerror", (error) => complaints.push(String(error)));

@@ -124,7 +124,7 @@ async function check_pointer(page, name) {
   await page.locator("canvas").first().scrollIntoViewIfNeeded();
   const canvas = await page.locator("canvas").first().boundingBox();
   await page.mouse.move(canvas.x + canvas.width * 0.4, canvas.y + canvas.height * 0.4);
-  await page.locator(".readout", { hasText: "known to" }).waitFor({ timeout: 2000 }).catch(() => {});
+  await page.locator(".readout", { hasText: "known to" }).waitFor({ timeout: 20000 }).catch(() => {});
   const readout = await page.locator(".readout").textContent();
   check(/theta_i [\d.]+.*, theta_o [\d.]+.*: [\d.e-]+, [\d.e-]+, [\d.e-]+ sr.*known to/.test(readout), `${name}: a pointer over the sphere reads "${readout}"`);
   const before = await page.evaluate(() => viewer.state.longitude);
@@ -222,7 +222,7 @@ async function check_model(page, name) {
   check(mean < 1 && brightest > 50, `${name}: a ball as a file looks like the sphere, mean difference ${mean.toFixed(2)}/255`);
   writeFileSync(at("broken.obj"), "v 0 0 0\nf 1 2 3\n");
   await page.locator("input[accept='.obj']").setInputFiles(at("broken.obj"));
-  await page.locator("output", { hasText: "not a model: there is no vertex 2" }).waitFor({ timeout: 2000 }).catch(() => {});
+  await page.locator("output", { hasText: "not a model: there is no vertex 2" }).waitFor({ timeout: 20000 }).catch(() => {});
   check(await page.locator("output", { hasText: "no vertex 2" }).count() === 1, `${name}: a broken file is refused`);
   await page.locator("label", { hasText: "Shape" }).locator("select").selectOption("sphere");
 }
