@@ -1,5 +1,5 @@
-/// The cost of accumulating a Gram matrix in float. Solves for each of the ten test materials from the 99 others, with
-/// normal equations from products and block sums in float and in double. Evaluates both in double. No timings.
+/// The cost of accumulating a Gram matrix in float. Describes each of the ten test materials by the 99 others. Products
+/// and block sums of the normal equations are in float, then in double. Evaluates both in double. No timings.
 
 #include "../../tests/solve/oracles/nnls_block_pivoting.hpp"
 #include "../real_materials.hpp"

@@ -150,7 +150,7 @@ class dark_room {
   }
 
  private:
-  /// Returns the radiance at an image position: 1 / pi for white under a lamp at the normal and usual distance.
+  /// Returns the radiance at an image position: 1 / pi for white if the lamp is at the normal, at its usual distance.
   [[nodiscard]] gonio::rgb radiance(double x, double y) const {
     // In the sample's own axes, with all misalignments undone.
     const Eigen::Vector3d camera = turn_sample_.transpose() * turn_camera_ * camera_;

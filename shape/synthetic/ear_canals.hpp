@@ -347,8 +347,8 @@ class ear_canal_family {
       gonio::refuse("a share of abnormal ear canals must be from 0 to 1, not " + std::to_string(abnormal_share));
   }
 
-  /// Returns the individual of a seed. Latent numbers are within 3 standard deviations and redrawn until the surface is
-  /// far enough from folding.
+  /// Returns the individual of a seed. Draws latent numbers within 3 standard deviations, again and again until the
+  /// surface is far enough from folding.
   [[nodiscard]] ear_canal draw(std::uint64_t seed) const {
     number_source numbers(seed);
     for (;;) {

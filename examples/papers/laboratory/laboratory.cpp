@@ -61,7 +61,7 @@ std::array<laboratory, 4> laboratories(double outliers) {
            {"noise, misplaced, outliers", lab::sensor::usual(), with_outliers, usual_noise}}};
 }
 
-/// Returns the poses of those pairs that the machine can reach, at most `most`.
+/// Returns the poses of the first `most` pairs that the machine can reach, or of all if there are fewer.
 std::vector<gonio::direction_pair> reachable(const laboratory_options& options,
                                              const std::vector<gonio::direction_pair>& pairs, std::size_t most) {
   lab::dark_room room(lab::white(), {}, {});

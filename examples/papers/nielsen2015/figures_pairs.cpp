@@ -19,7 +19,7 @@ namespace {
 
 using angles = std::vector<gonio::half_difference>;
 
-/// Two cells and their value by a criterion.
+/// Two cells, and the value of a criterion for this pair.
 struct cell_pair {
   std::array<Eigen::Index, 2> cells{};
   double value = std::numeric_limits<double>::infinity();

@@ -71,7 +71,7 @@ record timed_record(const char* name, const options& given, const Search& search
   return timings;
 }
 
-/// Runs a search from several seeds, and random swaps for the same time and for five times that.
+/// Runs a search from several seeds. Then runs random swaps for the same time, and for five times that time.
 template <class Objective, class Search>
 std::vector<record> race(const std::string& name, const Objective& objective, std::size_t n, const options& given,
                          Search&& search) {

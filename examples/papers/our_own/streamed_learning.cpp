@@ -325,8 +325,9 @@ void add_streamed_learning(command& app) {
       .check(check::range(10, 1024))
       .capture_default_str();
   command
-      .add_option("--wavelengths", given->wavelengths,
-                  "Number of wavelengths, instead of three colours, of each material: prints time and memory alone")
+      .add_option(
+          "--wavelengths", given->wavelengths,
+          "Gives each material this number of wavelengths instead of three colours; prints only time and memory")
       .check(check::range(4, 1024));
   command.add_option("--components", given->components, "Number of components to keep")
       .check(check::positive_number())

@@ -105,7 +105,7 @@ void add_expand(command& app) {
   auto networks =
       command.add_input("--networks", options->networks, "File of networks (.npy, names in merl_names.txt beside it)");
   add_prior_option(command, options->prior);
-  command.add_option("--name", options->name, "Name of a material: of --networks if given, else of the prior");
+  command.add_option("--name", options->name, "Name of a material in --networks or, without --networks, in the prior");
   auto weights = command
                      .add_option("--weights", options->weights,
                                  "Weights of the prior's components, as 0.5,-1,2; omitted ones are 0. Give one list "

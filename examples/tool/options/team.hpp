@@ -82,7 +82,7 @@ class team {
     return compute();
   }
   /// Calls `compute(i)` for each i of a range, in any of the processes, and `take(i, part)` in order in the writing
-  /// process. The next part is computed while one is taken. Throws the exceptions of both, once neither is running.
+  /// process. The next part is computed while one is taken. After both have ended, throws their exceptions.
   virtual void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                                 const std::function<void(Eigen::Index, part)>& take) const;
 };

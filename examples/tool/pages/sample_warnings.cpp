@@ -21,8 +21,8 @@ namespace cli {
 
 namespace {
 
-/// Samples with the same half and difference angles, to a thousandth of a degree, and, if asked for, with the same
-/// azimuth of the light (of the viewer, if the light is along the normal).
+/// Samples by their half and difference angles in thousandths of a degree. The fourth number is the azimuth of the
+/// light (of the viewer, if the light is along the normal), or 0 if azimuths do not matter.
 using repeats = std::map<std::array<std::int64_t, 4>, std::vector<Eigen::Index>>;
 
 std::int64_t thousandths(double angle) { return std::llround(1e3 * gonio::degrees(angle)); }

@@ -35,10 +35,10 @@ struct colour_clusters {
 /// The rule for the number of clusters: the number from 2 to `most` with the largest silhouette, if that silhouette is
 /// at least `least_silhouette`, otherwise one.
 ///
-/// A silhouette cannot compare one cluster with two. The default of `least_silhouette` is above the silhouette of a
-/// single material that is split arbitrarily: 0.4 if its colour is noisy, 0.56 if it is darkened irregularly, and 0.64
-/// if it is darkened evenly. The default is below the silhouette of two materials whose colours are eight standard
-/// deviations of their noise apart: tests/capture/colour_clusters.cpp.
+/// A silhouette cannot compare one cluster with two. If one material is split arbitrarily, the silhouette is 0.4 for a
+/// noisy colour, 0.56 for irregular darkening and 0.64 for even darkening. The default of `least_silhouette` is higher.
+/// The default is below the silhouette of two materials whose colours are eight standard deviations of their noise
+/// apart: tests/capture/colour_clusters.cpp.
 struct cluster_count_choice {
   Eigen::Index most = 6;
   double least_silhouette = 0.7;

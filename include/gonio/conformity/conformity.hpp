@@ -1,6 +1,6 @@
 #pragma once
 /// Tests whether a part reflects like a reference. Both are measured in a few directions, not necessarily the same. In
-/// a shared direction, alike surfaces differ only by noise: a chi-square statistic (F if the noise was estimated). In
+/// a shared direction, equal surfaces differ only by noise: a chi-square statistic (F if the noise was estimated). In
 /// any other direction, the reference predicts the part, by the prior and its discrepancy: Rasmussen and Williams,
 /// "Gaussian Processes for Machine Learning", 2006, Eq. 2.23-2.24. The covariance of the channels is estimated from the
 /// reference, as `sample_process` estimates its scale. Error rates on measured materials: docs/results/conformity.md.

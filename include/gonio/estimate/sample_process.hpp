@@ -167,8 +167,8 @@ class sample_process {
   /// It is large if the model explains the samples badly.
   [[nodiscard]] double scale() const;
   /// Returns the scale of S = k(X, X), the covariance without any errors: (known_before + y' K^-1 S K^-1 y) /
-  /// (known_before + tr K^-1 S). Unlike this scale, `scale` also falls if many smooth samples show that their errors
-  /// are small, although this says nothing about locations far from the samples. O(n^3).
+  /// (known_before + tr K^-1 S). If many smooth samples show that their errors are small, `scale()` falls, but
+  /// this scale does not: small errors say nothing about locations far from the samples. O(n^3).
   [[nodiscard]] double scale_of_material() const;
   /// Returns the standard deviation of the mapped value at one location, including the error of a measurement, for a
   /// scale of 1. `row` has the prior's k components at the location. Eq. 2.26. O(n (n + k)).

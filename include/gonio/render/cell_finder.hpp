@@ -24,8 +24,8 @@ namespace gonio::render {
 
 namespace detail {
 
-/// Counts how many of some ascending borders a number has reached. A table over the range gives the count up to one
-/// border, and one comparison completes it.
+/// Counts the borders, in ascending order, that are not above a number. A table over the range gives the count up to
+/// one border, and one comparison completes it.
 template <std::floating_point Real>
 class border_counter {
  public:

@@ -151,7 +151,7 @@ class dual_active_set {
   double shift_;
   working_set set_;
   vector y_, bound_multiplier_, row_multiplier_;
-  std::vector<bool> tolerated_;  // constraints violated by rounding alone, which cannot be repaired
+  std::vector<bool> tolerated_;  // violated only by rounding: no step can repair these
   Eigen::Index violated_ = -1;
   int changes_ = 0;
   bool singular_ = false;

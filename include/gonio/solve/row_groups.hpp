@@ -42,7 +42,7 @@ inline constexpr block all_row_groups{0, row_groups};
 using product_writer = std::function<void(block range, const Eigen::MatrixXd& product)>;
 
 /// Returns A'(A U), k x l, for the n rows of a subtree of groups and U of k x l. 4 n k l operations. Each thread holds
-/// two matrices of that size and 128 rows. If given, `write` receives A U.
+/// two k x l matrices and 128 rows. If given, `write` receives A U.
 [[nodiscard]] Eigen::MatrixXd gram_times(const row_source& rows, const Eigen::MatrixXd& vectors, block groups,
                                          thread_count threads = {}, const product_writer& write = {});
 

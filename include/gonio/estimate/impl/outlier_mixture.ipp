@@ -103,7 +103,7 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
                                                      const channel_values& estimated) const {
   deviations found = deviate(measured, estimated);
   const outlier_mixture mixture = estimate_from(found);
-  // Scale the distances, which are larger than residuals, especially if the channels differ.
+  // Scale the distances: they are larger than residuals, most of all if the channels differ.
   const auto scale = static_cast<float>(mixture.scale / scale_of_distances(found, mixture));
   for (float& distance : found.distance) distance *= scale;
   std::vector<float> weights(measured.cols());

@@ -20,8 +20,8 @@ class scratch_materials {
   /// Keeps the scratch file in `folder`. Tables in memory are written to it before they exceed `memory` bytes.
   explicit scratch_materials(std::filesystem::path folder, std::uint64_t memory = std::uint64_t{512} << 20);
 
-  /// Throws gonio::error if the table has other cells or wavelengths than the first one, or if the folder's disk is
-  /// full.
+  /// Throws gonio::error if the table's cells or wavelengths differ from those of the first table, or if the folder's
+  /// disk is full.
   void append(const std::string& name, const brdf_table& table);
   void append(const std::string& name, spectral_table table);
   /// Appends a row of values for each cell, at some wavelengths or, if there are none, in RGB.
