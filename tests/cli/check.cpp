@@ -84,7 +84,7 @@ TEST_CASE("gonio check: repeats tell the noise, and other directions are predict
   const checked_files files;
   const std::string good = files.write("good.csv", 1, gonio::rgb::Ones(), 3);
   check_says(files.write("same.csv", 2, gonio::rgb::Ones()) + " --reference " + good, 0,
-             {"no difference found", "estimated from repeats with 36 degrees of freedom"});
+             {"no difference found", "measured more than once", "exchanged (36 degrees of freedom)"});
   check_says(files.write("red.csv", 3, {1.2, 1.0, 1.0}, 3) + " --reference " + good, 1, {"NO-GO"});
   const std::string turned = files.write("turned.csv", 4, gonio::rgb::Ones(), 1, 0.02);
   check_says(

@@ -1,4 +1,5 @@
 #include "synthetic_scan.hpp"
+#include <gonio/core/statistics.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -47,6 +48,26 @@ void check_exact(const std::vector<gonio::direction_pair>& pairs, std::size_t at
 TEST_CASE("lab: without defects both machines measure the material itself") {
   check_exact<lab::gantry>(scattered_pairs(100, 1), 70);
   check_exact<lab::robot>(scattered_pairs(100, 1, gonio::radians(7.5)), 70);
+}
+
+TEST_CASE("lab: with the response of 20 readings, errors are as large as stated") {
+  const lab::defects noise{.vignetting = 0.1, .flicker = 0.01};
+  const gonio::capture::sensor_noise known{
+      .read = 8.0 * 4095.0 / 20'000.0, .shot = 4095.0 / 20'000.0, .relative = 0.01};
+  for (const auto curve : {lab::response_curve::linear, lab::response_curve::gamma, lab::response_curve::s_shaped}) {
+    const lab::sensor chip = lab::sensor::usual(curve);
+    std::vector<double> errors;  // in standard deviations
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+      const two_scans<lab::gantry> scans(scattered_pairs(20, seed), glossy, chip, noise, noise);
+      for (const auto& found : lab::calibrate(scans.material, scans.white, scans.poses, chip, known)) {
+        const gonio::rgb off = found.value - glossy(found.at.wi, found.at.wo);
+        if (found.is_usable())
+          for (Eigen::Index c = 0; c < 3; ++c) errors.push_back(std::abs(off[c]) / found.deviation[c]);
+      }
+    }
+    // A normal number's median size is 0.674.
+    CHECK(gonio::median(errors) == doctest::Approx(0.674).epsilon(0.06));
+  }
 }
 
 TEST_CASE("lab: with noise the 95 % intervals hold 90 to 99 %") {

@@ -70,7 +70,8 @@ void describe(const gonio::certainty& known, reconstruction& result) {
     result.warnings.push_back("the highlight " + how_well +
                               ": measure more directions whose half vector is within 5 degrees of the normal");
   if (known.known_to_beyond > 0.0) {
-    const auto farthest = std::max(std::lround(std::ceil(gonio::degrees(known.measured_to))), 1L);
+    constexpr double rounding = 0.01;  // degrees
+    const auto farthest = std::max(std::lround(std::ceil(gonio::degrees(known.measured_to) - rounding)), 1L);
     result.warnings.push_back("the half vectors of all samples are within " + counted(farthest, "degree") +
                               " of the normal: farther away, half of all directions are " +
                               known_to(known.known_to_beyond));

@@ -77,21 +77,24 @@ class camera_response {
 using exposure_counts = Eigen::ArrayXXd;
 
 struct response_options {
-  /// Weight of the smoothness term; the mean squared residual of the data has the weight 1.
+  /// The smallest weight of the smoothness term; the mean squared residual of the data has the weight 1.
   double smoothness = 3e-6;
+  /// The expected smoothness integral of a camera: noise of few exposures must not bend the response more than that.
+  double expected_bend = 0.05;
   /// Pixels are saturated from this count on; 0 stands for the largest count.
   std::uint16_t saturation = 0;
 };
 
 /// Estimates the response g of a camera whose pixels were each exposed at several exposure times. g minimises
 ///
-///   sum w(Z_ij)^2 (g(Z_ij) - ln E_i - ln t_j)^2 / sum w^2 + smoothness * integral of (v(Z) d^2 g / d(ln Z)^2)^2
+///   sum w(Z_ij)^2 (g(Z_ij) - ln E_i - ln t_j)^2 / sum w^2 + s * integral of (v(Z) d^2 g / d(ln Z)^2)^2
 ///
 /// over g and the pixels' unknown E_i (Debevec and Malik 1997, Eq. 3), with their hat function for w. Z_ij is the count
 /// of pixel i at the time t_j. The objective differs from the paper's in two ways. First, smoothness means closeness to
 /// a power law; the paper's second difference with respect to Z would bend every response at low counts. v is 1 in the
 /// lower half of the counts; in the upper half, where sensors bend, it is the square of the hat function. Second, a
-/// linear constraint on the slopes keeps g from decreasing.
+/// linear constraint on the slopes keeps g from decreasing. A first fit with s = `smoothness` measures the mean squared
+/// residual r of the data. For the second fit, s grows by r / (expected_bend * sum w^2).
 ///
 /// Throws gonio::error unless there are at least two times, all positive and finite, and at least one pixel that is
 /// neither dark nor saturated in two exposures. O(pixels (times + knots^2) + knots^3).

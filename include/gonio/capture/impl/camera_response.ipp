@@ -110,6 +110,10 @@ class response_equations {
 
   [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
   [[nodiscard]] const Eigen::VectorXd& rhs() const noexcept { return rhs_; }
+  /// Returns the sum of the weighted squared residuals of a response.
+  [[nodiscard]] double squared_residual(const Eigen::VectorXd& values) const {
+    return std::max(squares_ + values.dot(gram_ * values - 2.0 * rhs_), 0.0);
+  }
   /// Returns the total weight of the rows. Only pixels with at least two rows count, because a single row carries no
   /// information.
   [[nodiscard]] double weight() const noexcept { return weight_; }
@@ -119,14 +123,14 @@ class response_equations {
  private:
   Eigen::MatrixXd gram_;
   Eigen::VectorXd rhs_;
-  double spacing_ = 1.0, saturation_ = 1.0, weight_ = 0.0;
+  double spacing_ = 1.0, saturation_ = 1.0, weight_ = 0.0, squares_ = 0.0;
   double smallest_count_ = std::numeric_limits<double>::infinity();
 };
 
 GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::Index pixel,
                                           const std::vector<double>& log_times) {
   Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(rhs_.size());
-  double weights = 0.0, time_sum = 0.0, darkest = smallest_count_;
+  double weights = 0.0, time_sum = 0.0, squares = 0.0, darkest = smallest_count_;
   int rows = 0;
   for (Eigen::Index j = 0; j < counts.cols(); ++j) {
     const double count = counts(pixel, j), log_time = log_times[j];
@@ -142,6 +146,7 @@ GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::
     }
     darkest = std::min(darkest, count);
     time_sum += weight * log_time;
+    squares += weight * log_time * log_time;
     weights += weight;
     ++rows;
   }
@@ -151,6 +156,7 @@ GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::
   rhs_ -= time_sum / weights * row_sum;
   if (rows < 2) return;
   weight_ += weights;
+  squares_ += squares - time_sum * time_sum / weights;
   smallest_count_ = darkest;
 }
 
@@ -188,12 +194,18 @@ GONIO_INLINE camera_response estimate_response(const exposure_counts& counts, st
 
   const detail::response_basis basis(knots);
   const Eigen::MatrixXd to_slopes = basis.values.transpose() / total;
-  Eigen::MatrixXd gram = product(product(to_slopes, equations.gram()), basis.values);
-  for (Eigen::Index k = 1; k < knots - 1; ++k) gram(k, k) += options.smoothness;
+  const Eigen::MatrixXd gram = product(product(to_slopes, equations.gram()), basis.values);
+  const Eigen::VectorXd rhs = product(to_slopes, equations.rhs());
   const linear_constraints never_falls{-basis.slopes, Eigen::VectorXd::Zero(knots - 1)};
-  const solution found =
-      quadratic_program(never_falls).solve(normal_equations(std::move(gram), product(to_slopes, equations.rhs())));
-  return {largest_count, detail::never_falling(product(basis.values, found.weights)), equations.smallest_count()};
+  const auto fit = [&](double smoothness) -> Eigen::VectorXd {
+    Eigen::MatrixXd penalised = gram;
+    for (Eigen::Index k = 1; k < knots - 1; ++k) penalised(k, k) += smoothness;
+    const solution found = quadratic_program(never_falls).solve(normal_equations(std::move(penalised), rhs));
+    return detail::never_falling(product(basis.values, found.weights));
+  };
+  const double residual = equations.squared_residual(fit(options.smoothness)) / total;
+  return {largest_count, fit(options.smoothness + residual / (options.expected_bend * total)),
+          equations.smallest_count()};
 }
 
 }  // namespace gonio::capture
