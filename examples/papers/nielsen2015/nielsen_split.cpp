@@ -50,4 +50,11 @@ std::optional<std::vector<gonio::half_difference>> written_points(const std::fil
   return directions;
 }
 
+std::vector<gonio::half_difference> required_points(const std::filesystem::path& folder, const std::string& set,
+                                                    std::size_t count) {
+  if (auto found = written_points(folder, set, count)) return std::move(*found);
+  gonio::refuse("there is no set '" + set + "' of " + std::to_string(count) + " directions, no " +
+                (folder / points_file(set, count)).string());
+}
+
 }  // namespace papers

@@ -44,4 +44,8 @@ struct nielsen_split {
                                                                                 const std::string& set,
                                                                                 std::size_t count);
 
+/// Returns `written_points`. Throws gonio::error that names the file if there is no such set.
+[[nodiscard]] std::vector<gonio::half_difference> required_points(const std::filesystem::path& folder,
+                                                                  const std::string& set, std::size_t count);
+
 }  // namespace papers

@@ -64,11 +64,7 @@ class conformity_experiment {
       surfaces_.push_back({name, [f = gonio::io::read_rgl(path).material](const gonio::direction_pair& pair) {
                              return gonio::rgb(f(pair.wi, pair.wo).max(0.0));
                            }});
-    for (const Eigen::Index count : given.designed) {
-      const auto points = written_points(given.folder, given.set, count);
-      if (!points) gonio::refuse("there is no set '" + given.set + "' of " + std::to_string(count) + " directions");
-      designed_[count] = *points;
-    }
+    for (const Eigen::Index count : given.designed) designed_[count] = required_points(given.folder, given.set, count);
   }
 
   void run() {

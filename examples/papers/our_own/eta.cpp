@@ -92,12 +92,6 @@ class reconstruction_error {
   Eigen::MatrixXd vectors_, norm_, products_;
 };
 
-std::vector<gonio::half_difference> directions_of(const std::string& set, std::size_t count) {
-  if (const auto found = written_points(shipped_directions(), set, count)) return *found;
-  gonio::refuse("there is no set '" + set + "' of " + std::to_string(count) + " directions, no " +
-                (shipped_directions() / points_file(set, count)).string());
-}
-
 /// The mean result of one rule that chooses eta.
 struct eta_outcome {
   double rms = 0.0, log_eta = 0.0;
@@ -186,7 +180,7 @@ void compare_etas(const eta_options& options) {
   json rows = json::array();
   for (const std::string& set : options.sets)
     for (const Eigen::Index count : options.counts) {
-      const auto at = gonio::cells_at(prior.cells(), directions_of(set, count));
+      const auto at = gonio::cells_at(prior.cells(), required_points(shipped_directions(), set, count));
       for (const double noise : options.noises) {
         gonio::report(listener, "choosing for " + std::to_string(count) + " of " + set, 0.0);
         json row{{"set", set}, {"n", count}, {"noise", noise}};

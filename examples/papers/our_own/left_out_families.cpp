@@ -11,6 +11,17 @@
 
 namespace papers {
 
+namespace {
+
+/// Appends a table to a set whose values have columns for it.
+void append(gonio::material_set& set, std::string name, const gonio::brdf_table& table) {
+  set.values.middleCols(3 * std::ssize(set.names), 3) =
+      Eigen::Map<const gonio::cell_matrix>(table.values().data(), set.values.rows(), 3);
+  set.names.push_back(std::move(name));
+}
+
+}  // namespace
+
 material_library::material_library(const std::vector<std::filesystem::path>& networks,
                                    const std::filesystem::path& measured, const cli::thinning& thin,
                                    const gonio::progress& listener, gonio::thread_count threads)
@@ -21,26 +32,17 @@ material_library::material_library(const std::vector<std::filesystem::path>& net
   const auto files = gonio::io::list_rgl_directory(measured);
   if (files.empty()) gonio::refuse(measured.string() + ": holds no material (*.bsdf)");
   set.values.resize(static_cast<Eigen::Index>(cells_.size()), 3 * std::ssize(files));
-  for (const auto& [name, path] : files) {
-    const gonio::brdf_table table = gonio::tabulate(gonio::io::read_rgl(path).material, cells_, threads);
-    set.values.middleCols(3 * std::ssize(set.names), 3) =
-        Eigen::Map<const gonio::cell_matrix>(table.values().data(), set.values.rows(), 3);
-    set.names.push_back(name);
-  }
+  for (const auto& [name, path] : files)
+    append(set, name, gonio::tabulate(gonio::io::read_rgl(path).material, cells_, threads));
   sets_.push_back(std::move(set));
 }
 
 gonio::log_relative_pca material_library::prior_without(const std::string& family, Eigen::Index components,
                                                         Eigen::Index random_materials) const {
   auto set = materials(all(), [&](const std::string& name) { return gonio::material_family(name) != family; });
-  const Eigen::Index known = set.values.cols();
-  set.values.conservativeResize(Eigen::NoChange, known + 3 * random_materials);
-  for (Eigen::Index i = 0; i < random_materials; ++i) {
-    const gonio::brdf_table table = random_material(static_cast<std::uint64_t>(i), cells_, threads_);
-    set.values.middleCols(known + 3 * i, 3) =
-        Eigen::Map<const gonio::cell_matrix>(table.values().data(), set.values.rows(), 3);
-    set.names.push_back("random-" + std::to_string(i));
-  }
+  set.values.conservativeResize(Eigen::NoChange, set.values.cols() + 3 * random_materials);
+  for (Eigen::Index i = 0; i < random_materials; ++i)
+    append(set, "random-" + std::to_string(i), random_material(static_cast<std::uint64_t>(i), cells_, threads_));
   const auto metric = gonio::log_relative::to_median_of(set, threads_);
   return gonio::learn_pca(std::move(set), metric, components, threads_);
 }

@@ -12,7 +12,6 @@
 #include "tool/pages/progress_bar.hpp"
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <Eigen/Cholesky>
@@ -20,8 +19,9 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
-#include <map>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace papers {
 
@@ -85,42 +85,7 @@ class parameter_regression {
   Eigen::MatrixXd dual_;
 };
 
-/// Some cells of a prior, at which weights are found and evaluated.
-class evaluated_cells {
- public:
-  evaluated_cells(const gonio::log_relative_pca& prior, Eigen::Index count)
-      : prior_(prior), rows_(std::min(count, prior.cells().size()), prior.size()) {
-    for (const Eigen::Index cell : gonio::random_cells(prior.cells(), rows_.rows(), 0)) {
-      const std::span<const float> row = prior.row(cell);
-      rows_.row(std::ssize(locations_)) = Eigen::Map<const Eigen::RowVectorXf>(row.data(), prior.size()).cast<double>();
-      locations_.push_back(gonio::locate_cell(prior.cells(), cell));
-      const auto [wi, wo] = gonio::to_directions(prior.cells().angles(cell));
-      geometry_.emplace_back(wi, wo);
-    }
-  }
-
-  /// Returns the reflectance for the weights of three channels, as input of a fit.
-  [[nodiscard]] std::vector<gonio::model::fit_observation> reflectance(const Eigen::MatrixXd& weights) const {
-    const Eigen::MatrixXd mapped = rows_ * weights;
-    std::vector<gonio::model::fit_observation> all;
-    for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
-      gonio::rgb value;
-      for (Eigen::Index c = 0; c < 3; ++c)
-        value[c] = prior_.metric().inverse(mapped(i, c) + gonio::offset_at(prior_, locations_[i]), locations_[i]);
-      all.push_back({geometry_[i], value.max(0.0), 1.0});
-    }
-    return all;
-  }
-
- private:
-  gonio::log_relative_pca prior_;
-  Eigen::MatrixXd rows_;
-  std::vector<gonio::location> locations_;
-  std::vector<gonio::model::lobe_geometry> geometry_;
-};
-
 struct from_weights_options : left_out_options {
-  std::filesystem::path folder = shipped_directions();
   Eigen::Index regressed = 8, evaluated = 400;
 };
 
@@ -130,7 +95,10 @@ const model_choice fitted_model;
 class from_weights_experiment : left_out_experiment {
  public:
   from_weights_experiment(const from_weights_options& given, progress_bar& bar)
-      : left_out_experiment(given, bar), given_(given), points_(*written_points(given.folder, "perceived", 20)) {}
+      : left_out_experiment(given, bar),
+        given_(given),
+        measured_(required_points(shipped_directions(), "perceived", 20)),
+        evaluated_(random_sampling(given.evaluated, 1).sets.front()) {}
 
   /// Returns the errors and seconds of each way, by material.
   [[nodiscard]] json run() {
@@ -142,21 +110,26 @@ class from_weights_experiment : left_out_experiment {
   }
 
  private:
-  /// What is known about the priors without one family.
+  /// A prior without one family, and what its materials say about parameters.
   struct known_family {
+    std::string left_out;
     gonio::log_relative_pca prior;
-    evaluated_cells cells;
-    parameter_regression by_materials;
+    parameter_regression regression;
   };
 
+  /// Learns the prior without a family. Keeps the last one, because families come one after the other.
   const known_family& known(const std::string& family) {
-    if (const auto found = known_.find(family); found != known_.end()) return *found->second;
+    if (known_ && known_->left_out == family) return *known_;
     auto prior = library_.prior_without(family, given_.components);
-    const evaluated_cells cells(prior, given_.evaluated);
-    known_.clear();  // families come one after the other
-    const auto added = known_.emplace(family, std::unique_ptr<known_family>(new known_family{
-                                                  prior, cells, {fitted_materials(prior, cells), given_.regressed}}));
-    return *added.first->second;
+    parameter_regression regression(fitted_materials(prior), given_.regressed);
+    return known_.emplace(known_family{family, std::move(prior), std::move(regression)});
+  }
+
+  /// Fits the model to a BRDF in the evaluated directions.
+  [[nodiscard]] gonio::model::analytic_brdf fit_evaluated(
+      const gonio::fitted_brdf<gonio::log_relative_pca>& brdf) const {
+    const auto value = [&](const gonio::direction_pair& pair) { return gonio::rgb(brdf(pair.wi, pair.wo).max(0.0)); };
+    return fit(gonio::model::fit_observations(measure(value, evaluated_, 0.0, 0)));
   }
 
   [[nodiscard]] gonio::model::analytic_brdf fit(const std::vector<gonio::model::fit_observation>& observations) const {
@@ -186,13 +159,12 @@ class from_weights_experiment : left_out_experiment {
   }
 
   /// Fits the model to each material of the prior.
-  [[nodiscard]] described_weights fitted_materials(const gonio::log_relative_pca& prior,
-                                                   const evaluated_cells& cells) const {
+  [[nodiscard]] described_weights fitted_materials(const gonio::log_relative_pca& prior) const {
     const Eigen::Index materials = std::ssize(prior.names());
     described_weights all{Eigen::MatrixXd(prior.size(), 3 * materials), Eigen::MatrixXd(4, 3 * materials)};
     for (Eigen::Index i = 0; i < materials; ++i) {
       const Eigen::MatrixXd weights = prior.weights_of(i);
-      const gonio::model::analytic_brdf model = fit(cells.reflectance(weights));
+      const gonio::model::analytic_brdf model = fit_evaluated({prior, weights});
       all.weights.middleCols(3 * i, 3) = weights;
       for (Eigen::Index c = 0; c < 3; ++c) all.parameters.col(3 * i + c) = parameters_of(model, c);
     }
@@ -202,7 +174,7 @@ class from_weights_experiment : left_out_experiment {
   /// Returns Delta E under the environment, and the seconds, of the table and of the models.
   [[nodiscard]] json errors_of(const judged_material& material) {
     const known_family& family = known(material.family);
-    const gonio::sample_set samples = measure(material.measured, points_, 0.0, 0);
+    const gonio::sample_set samples = measure(material.measured, measured_, 0.0, 0);
     const auto paint = gonio::decomposition{family.prior, gonio::tikhonov{40.0}, threads_}.fit(samples);
     const gonio::brdf_table table = paint.tabulate(library_.cells(), threads_);
     json errors{{"table", {compare(table, material).delta_e_env, 0.0}}};
@@ -215,10 +187,10 @@ class from_weights_experiment : left_out_experiment {
     };
     add("weights", [&] {
       std::array<channel_parameters, 3> channels;
-      for (Eigen::Index c = 0; c < 3; ++c) channels[c] = family.by_materials(paint.weights().col(c));
+      for (Eigen::Index c = 0; c < 3; ++c) channels[c] = family.regression(paint.weights().col(c));
       return model_of(channels);
     });
-    add("some cells", [&] { return fit(family.cells.reflectance(paint.weights())); });
+    add("some cells", [&] { return fit_evaluated(paint); });
     add("all cells",
         [&] { return fit(gonio::model::fit_observations(paint.tabulate(library_.cells(), threads_), threads_)); });
     add("samples", [&] { return fit(gonio::model::fit_observations(samples)); });
@@ -227,8 +199,8 @@ class from_weights_experiment : left_out_experiment {
   }
 
   const from_weights_options& given_;
-  std::vector<gonio::half_difference> points_;
-  std::map<std::string, std::unique_ptr<known_family>> known_;
+  std::vector<gonio::half_difference> measured_, evaluated_;
+  std::optional<known_family> known_;
 };
 
 void print(const from_weights_options& given, const json& by_material) {
@@ -264,11 +236,10 @@ void add_model_from_weights(command& app, const team& processes) {
                                     "Find parameters of an analytic model from the weights of a reconstruction");
   const auto options = std::make_shared<from_weights_options>();
   add_left_out_options(command, *options);
-  command.add_input_folder("--directions", options->folder, {".csv"}, "Folder of designed sets");
   command.add_option("--regressed", options->regressed, "Number of weights that predict the parameters")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--evaluated", options->evaluated, "Number of cells at which weights are evaluated")
+  command.add_option("--evaluated", options->evaluated, "Number of directions in which a reconstruction is evaluated")
       .check(check::positive_number())
       .capture_default_str();
   do_together(command, processes, options, [](const auto& given) {

@@ -44,11 +44,8 @@ struct real_materials_options : left_out_options {
 std::vector<sampling> samplings(const real_materials_options& given) {
   if (given.scans) return scan_samplings();
   std::vector<sampling> all;
-  for (const Eigen::Index count : given.designed) {
-    const auto points = written_points(given.folder, given.set, count);
-    if (!points) gonio::refuse("there is no set '" + given.set + "' of " + std::to_string(count) + " directions");
-    all.push_back({std::to_string(count) + " designed", {*points}});
-  }
+  for (const Eigen::Index count : given.designed)
+    all.push_back({std::to_string(count) + " designed", {required_points(given.folder, given.set, count)}});
   for (const Eigen::Index count : given.random) all.push_back(random_sampling(count, given.repetitions));
   return all;
 }

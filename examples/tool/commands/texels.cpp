@@ -81,10 +81,12 @@ void write_part(const std::filesystem::path& path, const gonio::io::svbrdf_map& 
 
 /// Returns the position of an uncertainty on a scale from 0.1 to 5. A texel's uncertainty is the root mean square over
 /// all directions, which is larger than the uncertainty of most directions: with 20 images, about 1.
-double place_of_uncertainty(double uncertainty) { return gonio::render::logarithmic_position(uncertainty, 0.1, 5.0); }
+double position_of_uncertainty(double uncertainty) {
+  return gonio::render::logarithmic_position(uncertainty, 0.1, 5.0);
+}
 
 colour_scale scale_of_uncertainty() {
-  const auto at = place_of_uncertainty;
+  const auto at = position_of_uncertainty;
   return {gonio::render::sequential_colour,
           {{0.0, "0.1"}, {at(0.2), "0.2"}, {at(0.5), "0.5"}, {at(1.0), "1"}, {at(2.0), "2"}, {1.0, "5"}}};
 }
@@ -218,7 +220,7 @@ void run(const texels_options& options) {
   if (options.uncertainty.empty() && options.disagreement.empty() && options.clusters == 0 && options.other.empty())
     gonio::refuse("texels needs one of --uncertainty, --disagreement, --clusters and --compare");
   const colour_scale of_uncertainty = scale_of_uncertainty();
-  write_part(options.uncertainty, map, &band::uncertainty, of_uncertainty, place_of_uncertainty);
+  write_part(options.uncertainty, map, &band::uncertainty, of_uncertainty, position_of_uncertainty);
   const colour_scale of_disagreement{gonio::render::sequential_colour,
                                      {{0.0, "0"}, {0.25, "1"}, {0.5, "2"}, {0.75, "3"}, {1.0, "4+"}}};
   write_part(options.disagreement, map, &band::disagreement, of_disagreement,
