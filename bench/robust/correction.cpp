@@ -66,7 +66,7 @@ void one_round(benchmark::State& state, const Weighting& weighting) {
   const double samples_that_count = counted(run);
   for (auto _ : state) benchmark::DoNotOptimize(run.step());
   // A round without normal equations reads the rows twice: for the right-hand sides, and to evaluate the correction.
-  constexpr bool assembles = !std::same_as<Weighting, gonio::trust_all>;
+  constexpr bool assembles = !std::same_as<Weighting, gonio::equal_weights>;
   if (assembles) count_operations(state, operations(samples_that_count));
   if (!assembles) count_bytes(state, 2.0 * 12.0 * static_cast<double>(measured.size() * corrections().size()));
   limited_by(state, assembles ? "eigen_rank_update" : state.range(0) == 1 ? "read_rows" : "read_rows_apart");
@@ -78,7 +78,7 @@ BENCHMARK(round_with_weights)->Arg(1)->Arg(10)->UseRealTime()->Unit(benchmark::k
 void round_with_automatic_weights(benchmark::State& state) { one_round(state, gonio::automatic_weights{}); }
 BENCHMARK(round_with_automatic_weights)->Arg(1)->Arg(10)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-void round_with_fixed_weights(benchmark::State& state) { one_round(state, gonio::trust_all{}); }
+void round_with_fixed_weights(benchmark::State& state) { one_round(state, gonio::equal_weights{}); }
 BENCHMARK(round_with_fixed_weights)->Arg(1)->Arg(10)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void correction_basis(benchmark::State& state) {

@@ -66,7 +66,7 @@ TEST_CASE("the products of a channel are the Gram matrix of all functions, those
   CHECK(&channel.products() != &functions.channel(0).products());
   functions.leave_out({"a"});
   CHECK(&channel.products() == &functions.channel(1).products());
-  CHECK(functions.left_out() == std::vector<std::string>{"a", "b"});
+  CHECK(functions.excluded() == std::vector<std::string>{"a", "b"});
 }
 
 TEST_CASE("leaving out: names count, functions without a name stay, and copies are not affected") {

@@ -160,9 +160,9 @@ TEST_CASE("reconstruct says how sure it is far from all samples") {
   CHECK(output.find("the half vectors of all samples are within 12 degrees of the normal: farther away, half of "
                     "all directions are known to ") != std::string::npos);
   const auto fit = read_json(output);
-  CHECK(fit["known_to_beyond_the_samples"].get<double>() > fit["known_to"].get<double>());
+  CHECK(fit["known_to_outside_the_samples"].get<double>() > fit["known_to"].get<double>());
   CHECK_FALSE(
-      read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output).contains("known_to_beyond_the_samples"));
+      read_json(gonio_tool("reconstruct --json " + at("samples.csv")).output).contains("known_to_outside_the_samples"));
 }
 
 TEST_CASE("reconstruct says how sure it is") {

@@ -104,7 +104,7 @@ TEST_CASE("weights of samples with angular errors are lowered relative to the mo
   gonio::sample_set samples(gonio::channels({450.0, 550.0}));
   const double angle = gonio::radians(3.0), observations = 24.0;
   for (const Eigen::Index cell : {5, 80, 200}) samples.add(small_cells().angles(cell), std::array{0.2, 0.3}, 2.0);
-  const auto weighted = gonio::weighted_as_misplaced(samples, prior, model, angle);
+  const auto weighted = gonio::weighted_by_angular_error(samples, prior, model, angle);
   REQUIRE(weighted.size() == 3);
   CHECK(weighted.channels() == samples.channels());
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -114,5 +114,5 @@ TEST_CASE("weights of samples with angular errors are lowered relative to the mo
     CHECK(weighted.weight(i)[0] < 2.0);
     CHECK(weighted.values(i)[1] == 0.3);
   }
-  CHECK(gonio::weighted_as_misplaced(samples, prior, model, 0.0).weight(1)[0] == doctest::Approx(2.0));
+  CHECK(gonio::weighted_by_angular_error(samples, prior, model, 0.0).weight(1)[0] == doctest::Approx(2.0));
 }

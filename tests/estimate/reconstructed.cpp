@@ -152,7 +152,7 @@ TEST_CASE("certainty is the median over the directions") {
   CHECK(known.known_to == doctest::Approx(gonio::median(everywhere)).epsilon(1e-3));
   CHECK(known.known_to_at_grazing == doctest::Approx(gonio::median(grazing)).epsilon(1e-3));
   CHECK(known.highlight_factor > 1.0);
-  CHECK(known.known_to_beyond == 0.0);  // samples cover all directions
+  CHECK(known.known_to_outside == 0.0);  // samples cover all directions
   // More samples in the highlight make it more certain.
   auto more = gonio::sample_table(table, gonio::random_cells(posterior_cells(), 12, 1));
   for (const double theta_d : {0.3, 0.7, 1.1}) {
@@ -208,7 +208,7 @@ TEST_CASE("samples in finer steps, and samples that are all in one region, do no
   // The uncertainty far from all measured half vectors is stated separately.
   const gonio::certainty known = fine.certainty();
   CHECK(gonio::degrees(known.measured_to) == doctest::Approx(15.0 * 63.0 / 64.0));
-  CHECK(known.known_to_beyond > known.known_to);
+  CHECK(known.known_to_outside > known.known_to);
 }
 
 TEST_CASE("no estimate dips in the mirror direction, in its table and where it is evaluated") {

@@ -135,7 +135,7 @@ TEST_CASE("a material that the basis leaves out is in no approximation") {
   const correction later = all.without({"material-1"});
   for (const correction& without_it : {fewer, later}) {
     REQUIRE(without_it.size() == 6);
-    CHECK(without_it.left_out() == std::vector<std::string>{"material-1"});
+    CHECK(without_it.excluded() == std::vector<std::string>{"material-1"});
     REQUIRE(std::ranges::equal(without_it.columns(), std::vector<Eigen::Index>{0, 2, 3, 4, 5}));
     for (std::size_t f = 0; f < 5; ++f) {
       const auto one = function_values(without_it, without_it.columns()[f]), other = function_values(direct, f);
@@ -160,9 +160,9 @@ TEST_CASE("leaving materials out one by one, all at once or before is the same")
         one_by_one = one_by_one.without({name});
       }
     const correction at_once = all.without(out), before{basis.without(out)};
-    RC_ASSERT(one_by_one.left_out() == out);
-    RC_ASSERT(at_once.left_out() == out);
-    RC_ASSERT(before.left_out() == out);
+    RC_ASSERT(one_by_one.excluded() == out);
+    RC_ASSERT(at_once.excluded() == out);
+    RC_ASSERT(before.excluded() == out);
     for (const Eigen::Index column : before.columns()) {
       const std::size_t f = column;
       const auto expected = function_values(before, f), one = function_values(one_by_one, f),

@@ -140,7 +140,7 @@ TEST_CASE("golden: ten rounds as printed, clean and with outliers") {
     CHECK(last < 1e-4);
     CHECK(estimate < 1e-5);
   };
-  check("clean_gamma0", false, gonio::trust_all{});
+  check("clean_gamma0", false, gonio::equal_weights{});
   check("outliers_gamma3", true, gonio::relative_deviation_weights{3.0});
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("a material that was held out is found better than by the initial esti
     const auto fit = correction_iteration{initial, world().corrections, weighting}.fit(samples);
     return log_error(fit.tabulate(small_cells()), world().truth);
   };
-  CHECK(error_with(gonio::trust_all{}) < 0.5 * before);
+  CHECK(error_with(gonio::equal_weights{}) < 0.5 * before);
   CHECK(error_with(gonio::automatic_weights{}) < 0.5 * before);
   CHECK(error_with(gonio::relative_deviation_weights{}) < 0.5 * before);
   // The weights take the highlight for outliers, since the initial estimate lacks it.
@@ -178,7 +178,7 @@ TEST_CASE("limits end the iteration, and the history has every round") {
   const auto located = gonio::locate_samples(small_cells(), world().samples(60));
   const auto initial = combination{world().others}.fit(world().samples(60));
   const auto rounds_with = [&](const correction_limits& limits) {
-    correction_run run{initial, world().corrections, located, gonio::trust_all{}, gonio::nnls{}, limits};
+    correction_run run{initial, world().corrections, located, gonio::equal_weights{}, gonio::nnls{}, limits};
     run_to_the_end(run);
     CHECK(run.history().size() == run.result().history().size());
     CHECK(run.history().size() == run.result().weights().size());
@@ -210,8 +210,9 @@ TEST_CASE("no round: the result is the initial estimate") {
 TEST_CASE("with the constant function thirty rounds are no worse than the best") {  // trap 1 of the reference
   const auto located = gonio::locate_samples(small_cells(), world().truth);
   const auto initial = combination{world().others}.fit(world().truth);
-  correction_run run{
-      initial, world().corrections, located, gonio::trust_all{}, gonio::nnls{}, {.rounds = 30, .smallest_change = 0.0}};
+  correction_run run{initial,       world().corrections,
+                     located,       gonio::equal_weights{},
+                     gonio::nnls{}, {.rounds = 30, .smallest_change = 0.0}};
   double best = 1e9, now = 0.0;
   while (!run.converged()) {
     run.step();
@@ -375,7 +376,7 @@ TEST_CASE("a sample of weight zero changes no byte, and other weights matter") {
 }
 
 TEST_CASE("a channel's corrections follow the weights of that channel") {
-  const correction_iteration estimator{combination{world().others}, world().corrections, gonio::trust_all{}};
+  const correction_iteration estimator{combination{world().others}, world().corrections, gonio::equal_weights{}};
   auto apart = world().samples(60), alike = apart;
   for (std::size_t i = 0; i < apart.size(); ++i) {
     const double own = i % 3 == 0 ? 5.0 : 0.5;
@@ -401,7 +402,7 @@ TEST_CASE("difficult samples give a finite, non-negative BRDF with every weighti
     };
     static const gonio::correction printed{world().others, gonio::correction_rule::as_printed()};
     for (const gonio::correction& corrections : {world().corrections, printed}) {
-      check(gonio::trust_all{}, corrections);
+      check(gonio::equal_weights{}, corrections);
       check(gonio::relative_deviation_weights{}, corrections);
       check(gonio::tukey_weights{}, corrections);
       check(gonio::automatic_weights{}, corrections);
@@ -412,7 +413,7 @@ TEST_CASE("difficult samples give a finite, non-negative BRDF with every weighti
 TEST_CASE("an estimate that is zero where samples are positive is raised") {
   const gonio::completed_table black(gonio::brdf_table{small_cells()});
   const auto located = gonio::locate_samples(small_cells(), world().samples(100));
-  correction_run run{black, world().corrections, located, gonio::trust_all{}};
+  correction_run run{black, world().corrections, located, gonio::equal_weights{}};
   run_to_the_end(run);
   const auto table = run.result().tabulate(small_cells());
   CHECK(std::ranges::all_of(table.values(), [](float value) { return std::isfinite(value) && value >= 0.0f; }));

@@ -40,10 +40,10 @@ channel_values row_in_each_channel(std::initializer_list<float> values) {
 
 }  // namespace
 
-TEST_CASE("trust_all: 1 for each channel of each sample") {
+TEST_CASE("equal_weights: 1 for each channel of each sample") {
   const auto values = row_in_each_channel({1, 2, -3, 0});
-  CHECK((gonio::trust_all{}.weigh(values, values) == 1.0f).all());
-  CHECK(gonio::trust_all{}.weigh(values, values).cols() == 4);
+  CHECK((gonio::equal_weights{}.weigh(values, values) == 1.0f).all());
+  CHECK(gonio::equal_weights{}.weigh(values, values).cols() == 4);
 }
 
 TEST_CASE("relative deviation: Eq. 13 by hand") {

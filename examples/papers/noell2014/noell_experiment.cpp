@@ -220,7 +220,7 @@ struct noell_experiment::parts {
     const gonio::decomposition initial{others, gonio::nnls{}, threads};
     if (gamma == 0.0)
       return tabulated(
-          gonio::correction_iteration{initial, functions, gonio::trust_all{}, gonio::nnls{}, limits, threads});
+          gonio::correction_iteration{initial, functions, gonio::equal_weights{}, gonio::nnls{}, limits, threads});
     return tabulated(gonio::correction_iteration{initial, functions, gonio::relative_deviation_weights{gamma},
                                                  gonio::nnls{}, limits, threads});
   }

@@ -69,13 +69,13 @@ void describe(const gonio::certainty& known, reconstruction& result) {
   if (factor > 4.0)
     result.warnings.push_back("the highlight " + how_well +
                               ": measure more directions whose half vector is within 5 degrees of the normal");
-  if (known.known_to_beyond > 0.0) {
+  if (known.known_to_outside > 0.0) {
     constexpr double rounding = 0.01;  // degrees
     const auto farthest = std::max(std::lround(std::ceil(gonio::degrees(known.measured_to) - rounding)), 1L);
     result.warnings.push_back("the half vectors of all samples are within " + counted(farthest, "degree") +
                               " of the normal: farther away, half of all directions are " +
-                              known_to(known.known_to_beyond));
-    result.details["known_to_beyond_the_samples"] = known.known_to_beyond;
+                              known_to(known.known_to_outside));
+    result.details["known_to_outside_the_samples"] = known.known_to_outside;
   }
   result.details["known_to"] = known.known_to;
   result.details["known_to_beyond_80_degrees"] = known.known_to_at_grazing;
@@ -220,7 +220,8 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
   const double angle = gonio::radians(options.angular_error);
   const std::vector<Eigen::Index> counting = gonio::counting_positions(samples);
   const auto estimator = estimator_of(options, prior, std::ssize(counting));
-  const auto known = estimator.fit(gonio::weighted_as_misplaced(samples.through({}), prior, estimator.model(), angle));
+  const auto known =
+      estimator.fit(gonio::weighted_by_angular_error(samples.through({}), prior, estimator.model(), angle));
   const gonio::sample_set agreeing = as_much_as_they_count(samples, counting, known.inlier_weights());
   const double eta = stated.empty() ? gonio::eta_of_noise(prior, agreeing, options.noise.value_or(0.0), options.threads)
                                     : number_of_eta(stated);

@@ -93,9 +93,9 @@ json read_as(const gonio::io::sample_file& file) {
   const sample_quantity quantity = file.quantity.value_or(sample_quantity::brdf);
   sentence += "; " + described(file.samples.channels()) + ", " + described(quantity);
   if (!file.text.dialect.empty()) sentence += "; " + file.text.dialect;
-  if (file.text.rows_left_out > 0)
+  if (file.text.omitted_rows > 0)
     sentence +=
-        "; " + counted(static_cast<std::ptrdiff_t>(file.text.rows_left_out), "row") + " without a reading omitted";
+        "; " + counted(static_cast<std::ptrdiff_t>(file.text.omitted_rows), "row") + " without a reading omitted";
 
   std::string options = "--quantity " + std::string(name_of(quantity));
   std::vector<std::string> unsure = doubts_of(file);

@@ -107,7 +107,7 @@ class material_functions {
   [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
 
   /// Returns the names of the excluded materials.
-  [[nodiscard]] std::vector<std::string> left_out() const {
+  [[nodiscard]] std::vector<std::string> excluded() const {
     std::vector<std::string> found;
     for (Eigen::Index i = 0; i < std::ssize(*names_); ++i)
       if (!std::ranges::binary_search(*columns_, i)) found.push_back((*names_)[i]);

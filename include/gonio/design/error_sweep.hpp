@@ -51,7 +51,7 @@ class error_sweep {
   [[nodiscard]] lanes own_growth(const found& of, const lanes& sample_noise_penalty) const;
   [[nodiscard]] lanes mean(const found& of, const lanes& grown) const;
   template <class Channels>
-  [[nodiscard]] lanes mean_left_out(Channels channels, const found& of, const lanes& own) const;
+  [[nodiscard]] lanes mean_of_excluded(Channels channels, const found& of, const lanes& own) const;
   [[nodiscard]] lanes shift(const float* tile, const found& of) const;
 
   Eigen::Index measurements_, observations_;

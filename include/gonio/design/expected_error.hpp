@@ -183,7 +183,7 @@ class extended_error {
                                   Scalar r) const;
   /// Returns the mean error over all observations if materials are left out. Takes the candidate's t and w, and the
   /// increase `own` of each squared error by the measurements' own errors.
-  [[nodiscard]] Scalar mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const;
+  [[nodiscard]] Scalar mean_of_excluded(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const;
 
   Scalar eta_, common_shift_;
   Eigen::Index channels_;

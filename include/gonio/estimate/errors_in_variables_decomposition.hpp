@@ -163,8 +163,8 @@ static_assert(estimator<errors_in_variables_decomposition<log_relative>>);
 /// Each weight is multiplied by e / (e + v), where e is the model's error variance and v the variance of the mapped
 /// value due to these rotations. O(n k) for n samples and k components.
 template <error_metric Metric>
-[[nodiscard]] sample_set weighted_as_misplaced(const sample_set& samples, const pca<Metric>& prior,
-                                               const discrepancy_model& model, double angle) {
+[[nodiscard]] sample_set weighted_by_angular_error(const sample_set& samples, const pca<Metric>& prior,
+                                                   const discrepancy_model& model, double angle) {
   const double observations = static_cast<double>(prior.coefficients().rows());
   sample_set weighted(samples.channels());
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {

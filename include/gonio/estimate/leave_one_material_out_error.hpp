@@ -70,7 +70,7 @@ class leave_one_material_out_error {
 
   /// A material in the coordinates of the eigenvectors V: t is the difference of its weights from the mean of all other
   /// materials, N is the matrix in the class comment, and M is the diagonal matrix of the squared singular values.
-  struct left_out {
+  struct excluded_material {
     Eigen::MatrixXd t, n, mt, mn;  // V't, V'N, V'M t, V'M N: r x channels
     Eigen::MatrixXd nmn, nmt;      // N'M N, N'M t
     Eigen::VectorXd tmt;           // t'M t of each channel
@@ -109,19 +109,19 @@ class leave_one_material_out_error {
   void decompose(const Eigen::VectorXd& squares, const sums& all);
 
   /// Returns the state of a left-out material. `own` has the material's rows of C as columns.
-  [[nodiscard]] left_out leave_out(const Eigen::VectorXd& squares, const Eigen::MatrixXd& own,
-                                   double observations) const;
+  [[nodiscard]] excluded_material leave_out(const Eigen::VectorXd& squares, const Eigen::MatrixXd& own,
+                                            double observations) const;
 
   [[nodiscard]] double error_at(double eta) const;
 
-  [[nodiscard]] Eigen::VectorXd squared_bias(const left_out& material, const Eigen::VectorXd& d) const;
+  [[nodiscard]] Eigen::VectorXd squared_bias(const excluded_material& material, const Eigen::VectorXd& d) const;
 
   Eigen::VectorXd values_;      // l, ascending
   Eigen::MatrixXd vectors_;     // V
   Eigen::MatrixXd norm_;        // V'M V
   Eigen::MatrixXd noise_norm_;  // element-wise product of V'M V and the noise in V'A'W y
   Eigen::VectorXd shift_;       // mean of the noise in V'A'W y
-  std::vector<left_out> materials_;
+  std::vector<excluded_material> materials_;
   thread_count threads_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Finds the actual poses of light and camera for each image, together with the BRDF. All samples of an image share its
-/// pose error, so neither averaging nor weights (`weighted_as_misplaced`) remove this error.
+/// pose error, so neither averaging nor weights (`weighted_by_angular_error`) remove this error.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>

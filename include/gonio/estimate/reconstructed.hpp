@@ -51,9 +51,9 @@ struct certainty {
   /// degrees of the normal and difference angles up to 70 degrees.
   double highlight_factor = 1.0;
   /// `measured_to` is the largest angle in radians between the normal and the half vector of a kept sample.
-  /// `known_to_beyond` is the median of `known_to` over directions whose half vector is more than 4 degrees farther
+  /// `known_to_outside` is the median of `known_to` over directions whose half vector is more than 4 degrees farther
   /// from the normal than `measured_to`. It is 0 if these directions are less than a fifth of all directions.
-  double measured_to = 0.0, known_to_beyond = 0.0;
+  double measured_to = 0.0, known_to_outside = 0.0;
 };
 
 /// A sample and its prediction from all other samples.
@@ -141,7 +141,7 @@ class reconstructed {
 
   /// Called by `reconstruction`: sets the readings through apertures. `residuals` and `contradicted` then report
   /// readings, not the corrected values that were fitted.
-  void tell_readings(const located_samples& read) {
+  void set_readings(const located_samples& read) {
     readings_ = read.kinds.are_colours() ? read.values : read.in_three_channels().values;
     for (outlying_sample& each : found_.contradicted) {
       const Eigen::Index i =
@@ -151,7 +151,7 @@ class reconstructed {
     }
   }
   /// Called by `reconstruction`: sets the values that were replaced before the fit.
-  void tell_spikes(std::vector<spectral_spike> spikes) { spikes_ = std::move(spikes); }
+  void set_spikes(std::vector<spectral_spike> spikes) { spikes_ = std::move(spikes); }
 
   // ---- uncertainty ----
 

@@ -165,7 +165,7 @@ typename reconstruction<Metric>::selection reconstruction<Metric>::select(const 
   };
   if (rejects_) {
     chosen.found = judged(samples.kinds, colours, mapped);
-    if (const std::optional<located_samples> rest = samples.beyond_colours()) {
+    if (const std::optional<located_samples> rest = samples.invisible_channels()) {
       const located_samples three = rest->in_three_channels();
       chosen.found = detail::inliers_of_both(std::move(chosen.found),
                                              judged(rest->kinds, three, map_samples(prior_, three, threads_)));
@@ -248,7 +248,7 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit(const s
   sample_set right = samples;
   std::vector<spectral_spike> spikes = replace_spikes(right);
   result_type paint = fit_readings(right);
-  paint.tell_spikes(std::move(spikes));
+  paint.set_spikes(std::move(spikes));
   return paint;
 }
 
@@ -263,7 +263,7 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_reading
     located_samples narrowed = read;
     narrowed.values.array() /= factors.array();
     paint = fit_located(std::move(narrowed), numbers);
-    paint.tell_readings(read);
+    paint.set_readings(read);
   }
   return paint;
 }

@@ -123,7 +123,7 @@ class perceived_candidates {
     design::sensitivity slopes;
   };
   /// A family's materials under the prior of all other families: P = Q W + the discrepancy's covariance.
-  struct left_out {
+  struct excluded_family {
     Eigen::MatrixXd weights;            ///< W: k x n
     Eigen::MatrixXd mapped;             ///< n x 3 per material, minus the mean of the other families
     Eigen::MatrixXf seen;               ///< s P: (points of each material and channel) x n
@@ -141,7 +141,7 @@ class perceived_candidates {
   /// Leaves a family out of the prior. `members` has a column for each of the family's observations.
   void leave_out(const Eigen::MatrixXd& members, const std::vector<seen_material>& seen,
                  const Eigen::MatrixXf& discrepancy);
-  [[nodiscard]] remainder remains(const left_out& some, std::span<const Eigen::Index> cells) const;
+  [[nodiscard]] remainder remains(const excluded_family& some, std::span<const Eigen::Index> cells) const;
   /// Returns the mean Delta E of one material, raised to `perceived_options::power`, from the errors e and variances v
   /// of all its points.
   [[nodiscard]] double seen_power(const Eigen::Ref<const Eigen::ArrayXf>& errors,
@@ -150,7 +150,7 @@ class perceived_candidates {
   [[nodiscard]] double power_mean(double sum) const;
   /// Adds to `sums`, for each candidate of a range, the `seen_power` of the family's materials after measurements at
   /// `cells` and at the candidate.
-  void add_with_each(const left_out& some, std::span<const Eigen::Index> cells, block range,
+  void add_with_each(const excluded_family& some, std::span<const Eigen::Index> cells, block range,
                      std::vector<double>& sums) const;
 
   design::point_geometry geometry_;
@@ -159,7 +159,7 @@ class perceived_candidates {
   expected_covariance expected_;
   perceived_options options_;
   thread_count threads_;
-  std::vector<left_out> families_;
+  std::vector<excluded_family> families_;
   Eigen::ArrayXf weights_;       ///< one per point
   Eigen::MatrixXd discrepancy_;  ///< n x n
   std::vector<bool> allowed_;

@@ -225,7 +225,7 @@ class correction : public material_functions<lin> {
       : material_functions<lin>(approximations.materials().names(), approximations.materials().cells(), lin{},
                                 tables(approximations, rule, known)),
         rule_(rule) {
-    leave_out(approximations.materials().left_out());
+    leave_out(approximations.materials().excluded());
     without_ = [shared = std::make_shared<const Approximations>(std::move(approximations))](
                    const correction& all, const std::vector<std::string>& excluded) {
       return correction(shared->without(excluded), all.rule_, &all);

@@ -63,13 +63,13 @@ concept outlier_weighting = requires(const Weighting& weighting, const channel_v
 };
 
 /// Gives every measurement full weight: gamma = 0.
-struct trust_all {
+struct equal_weights {
   [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& /*estimated*/) const {
     return channel_values::Ones(3, measured.cols());
   }
 };
 
-static_assert(outlier_weighting<trust_all>);
+static_assert(outlier_weighting<equal_weights>);
 
 /// The weight exp(-gamma |rho - estimate| / estimate) of a measurement rho, Eq. 13, with the estimate at least a
 /// millionth. A measurement from zero to its estimate has a weight of at least e^-gamma, so a start that is too bright

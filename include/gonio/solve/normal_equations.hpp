@@ -72,8 +72,8 @@ class normal_equations {
 [[nodiscard]] normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::Index target,
                                              std::span<const Eigen::Index> columns);
 
-/// Returns the columns from 0 to k - 1 without column `left_out`.
-[[nodiscard]] std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out);
+/// Returns the columns from 0 to k - 1 without column `omitted`.
+[[nodiscard]] std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index omitted);
 
 /// A problem for a solver that uses the normal equations alone.
 template <class Problem>

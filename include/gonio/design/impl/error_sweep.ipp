@@ -129,9 +129,9 @@ GONIO_INLINE void error_sweep::operator()(const tiles& candidates, Eigen::Index 
       errors[number] = mean(of, grown);
     else if (const lanes own = own_energy_ + grown;
              channels_ == 3)  // a constant number of channels is unrolled into registers
-      errors[number] = mean_left_out(std::integral_constant<Eigen::Index, 3>(), of, own);
+      errors[number] = mean_of_excluded(std::integral_constant<Eigen::Index, 3>(), of, own);
     else
-      errors[number] = mean_left_out(channels_, of, own);
+      errors[number] = mean_of_excluded(channels_, of, own);
     if (common_shift_ > 0.0f) errors[number] += shift(tile, of);
   }
 }
@@ -178,7 +178,7 @@ GONIO_INLINE error_sweep::lanes error_sweep::mean(const found& of, const lanes& 
 
 /// Returns the mean error over all observations if materials are left out.
 template <class Channels>
-error_sweep::lanes error_sweep::mean_left_out(Channels channels, const found& of, const lanes& own) const {
+error_sweep::lanes error_sweep::mean_of_excluded(Channels channels, const found& of, const lanes& own) const {
   std::vector<lanes> room(static_cast<std::size_t>(2 * channels));
   lanes sum = lanes::Zero();
   for (Eigen::Index first = 0; first < missed_.cols(); first += channels) {

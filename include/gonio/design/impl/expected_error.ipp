@@ -183,7 +183,7 @@ auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const
     const Scalar d = eta_ + sample_noise_penalty[i] + y.row(i).dot(t), r = t.dot(once);
     const Scalar grown = own_growth(known, i, sample_noise_penalty[i], d, r);
     if (missed_.size() > 0) {
-      found[i] = mean_left_out(&both(0, i), &twice(0, i), d, r, own_energy_ + grown);
+      found[i] = mean_of_excluded(&both(0, i), &twice(0, i), d, r, own_energy_ + grown);
     } else {
       const auto change = t.array() * (r / (d * d) * t.array() - Scalar(2) / d * twice.col(i).array());
       found[i] = (squared_errors_ + (grown + change)).max(Scalar(0)).sqrt().mean();
@@ -198,7 +198,8 @@ auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const
 }
 
 template <class Scalar>
-Scalar extended_error<Scalar>::mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const {
+Scalar extended_error<Scalar>::mean_of_excluded(const Scalar* t, const Scalar* w, Scalar d, Scalar r,
+                                                Scalar own) const {
   const Eigen::Index m = missed_.cols();
   std::vector<Scalar> room(static_cast<std::size_t>(2 * channels_));
   Scalar sum = Scalar(0);

@@ -159,7 +159,7 @@ GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd&
   for (Eigen::Index j = 0; j < rank; ++j) shift_[j] = vectors_.col(j).dot(all.shift);
 }
 
-GONIO_INLINE leave_one_material_out_error::left_out leave_one_material_out_error::leave_out(
+GONIO_INLINE leave_one_material_out_error::excluded_material leave_one_material_out_error::leave_out(
     const Eigen::VectorXd& squares, const Eigen::MatrixXd& own, double observations) const {
   const Eigen::Index channels = own.cols();
   const auto count = static_cast<double>(channels);
@@ -195,7 +195,7 @@ GONIO_INLINE double leave_one_material_out_error::error_at(double eta) const {
   double variance = 0.0;
   for (Eigen::Index j = 0; j < d.size(); ++j) variance += d[j] * noise_norm_.col(j).dot(d);
   double sum = 0.0, count = 0.0;
-  for (const left_out& material : materials_) {
+  for (const excluded_material& material : materials_) {
     const Eigen::VectorXd bias = squared_bias(material, d);
     for (Eigen::Index c = 0; c < bias.size(); ++c) sum += std::sqrt(std::max(bias[c] + variance, 0.0));
     count += static_cast<double>(bias.size());
@@ -203,7 +203,7 @@ GONIO_INLINE double leave_one_material_out_error::error_at(double eta) const {
   return sum / count;
 }
 
-GONIO_INLINE Eigen::VectorXd leave_one_material_out_error::squared_bias(const left_out& material,
+GONIO_INLINE Eigen::VectorXd leave_one_material_out_error::squared_bias(const excluded_material& material,
                                                                         const Eigen::VectorXd& d) const {
   // Reconstruct with the material in the basis: u = D q.
   const Eigen::VectorXd f = values_.cwiseProduct(d), shift = d.cwiseProduct(shift_);

@@ -65,7 +65,7 @@ GONIO_INLINE located_samples located_samples::in_three_channels() const {
   return three;
 }
 
-GONIO_INLINE std::optional<located_samples> located_samples::beyond_colours() const {
+GONIO_INLINE std::optional<located_samples> located_samples::invisible_channels() const {
   std::vector<Eigen::Index> columns;
   std::vector<double> wavelengths;
   for (Eigen::Index c = 0; c < std::ssize(kinds.wavelengths()); ++c) {

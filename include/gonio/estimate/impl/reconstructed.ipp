@@ -49,7 +49,7 @@ GONIO_INLINE certainty certainty_of(std::vector<double> everywhere, std::vector<
                   .known_to_at_grazing = std::expm1(median(std::move(grazing))),
                   .highlight_factor = std::exp(median(std::move(highlight))),
                   .measured_to = measured_to};
-  if (5 * std::ssize(beyond) >= cells.size()) known.known_to_beyond = std::expm1(median(std::move(beyond)));
+  if (5 * std::ssize(beyond) >= cells.size()) known.known_to_outside = std::expm1(median(std::move(beyond)));
   return known;
 }
 

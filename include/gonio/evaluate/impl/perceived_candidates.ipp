@@ -90,7 +90,8 @@ GONIO_INLINE void perceived_candidates::leave_out(const Eigen::MatrixXd& members
   const Eigen::VectorXd mean = members.rowwise().sum() / -others;
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(k, k) - product_with_transpose(members);
   covariance = covariance / others - mean * mean.transpose();
-  left_out found{product(covariance, rows_.rows.transpose()), Eigen::MatrixXd(n, 3 * std::ssize(seen)), {}, {}, {}};
+  excluded_family found{
+      product(covariance, rows_.rows.transpose()), Eigen::MatrixXd(n, 3 * std::ssize(seen)), {}, {}, {}};
   const Eigen::VectorXd shift = rows_.rows * mean;
   const Eigen::MatrixXf weights = found.weights.cast<float>(), rows = rows_.rows.cast<float>(),
                         transposed = discrepancy.transpose();
@@ -133,7 +134,7 @@ struct perceived_candidates::remainder {
   Eigen::VectorXf errors, variances;  ///< e and v
 };
 
-GONIO_INLINE perceived_candidates::remainder perceived_candidates::remains(const left_out& some,
+GONIO_INLINE perceived_candidates::remainder perceived_candidates::remains(const excluded_family& some,
                                                                            std::span<const Eigen::Index> cells) const {
   const Eigen::Index count = std::ssize(cells), n = rows_.rows.rows(), points = weights_.size();
   remainder left{Eigen::MatrixXd(count, n),
@@ -182,7 +183,7 @@ GONIO_INLINE double perceived_candidates::power_mean(double sum) const {
 GONIO_INLINE double perceived_candidates::operator()(std::span<const Eigen::Index> cells) const {
   const Eigen::Index of_each = 3 * weights_.size();
   double sum = 0.0;
-  for (const left_out& some : families_) {
+  for (const excluded_family& some : families_) {
     const remainder left = remains(some, cells);
     for (Eigen::Index m = 0; m < some.materials(); ++m)
       sum += seen_power(left.errors.segment(of_each * m, of_each).array(),
@@ -198,14 +199,14 @@ GONIO_INLINE std::vector<float> perceived_candidates::errors_with_each(std::span
 GONIO_INLINE std::vector<float> perceived_candidates::errors_with_each(std::span<const Eigen::Index> cells,
                                                                        block range) const {
   std::vector<double> sums(range.size(), 0.0);
-  for (const left_out& some : families_) add_with_each(some, cells, range, sums);
+  for (const excluded_family& some : families_) add_with_each(some, cells, range, sums);
   std::vector<float> errors(range.size(), std::numeric_limits<float>::infinity());
   for (Eigen::Index i = 0; i < range.size(); ++i)
     if (allowed_[range.begin + i]) errors[i] = static_cast<float>(power_mean(sums[i]));
   return errors;
 }
 
-GONIO_INLINE void perceived_candidates::add_with_each(const left_out& some, std::span<const Eigen::Index> cells,
+GONIO_INLINE void perceived_candidates::add_with_each(const excluded_family& some, std::span<const Eigen::Index> cells,
                                                       block range, std::vector<double>& sums) const {
   const Eigen::Index points = weights_.size(), of_each = 3 * points;
   const remainder left = remains(some, cells);

@@ -47,7 +47,7 @@ using stb_pixels = std::unique_ptr<T[], stb_deleter>;
 [[noreturn]] void refuse_by_stb(const std::string& name);
 
 /// Returns the linear light of a display value in [0, 1]; the inverse of `encode_srgb`.
-[[nodiscard]] inline double decode_srgb(double encoded) noexcept {
+[[nodiscard]] inline double srgb_to_linear(double encoded) noexcept {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 

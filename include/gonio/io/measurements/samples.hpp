@@ -28,7 +28,7 @@ namespace gonio::io {
 struct sample_text {
   std::string dialect = {};             ///< "semicolon-separated with decimal commas"
   std::vector<std::size_t> lines = {};  ///< the line of each sample, from 1
-  std::size_t rows_left_out = 0;        ///< rows, or cells of a matrix, without a value or at 90 degrees
+  std::size_t omitted_rows = 0;         ///< rows, or cells of a matrix, without a value or at 90 degrees
   bool assumes_side = false;            ///< theta_o is assumed positive on the light's side: its sign is not stated
 };
 

@@ -99,11 +99,11 @@ GONIO_INLINE normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::
   return normal_equations(gram, std::move(rhs), std::move(rhs_squared_norm)).subset(columns);
 }
 
-GONIO_INLINE std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out) {
+GONIO_INLINE std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index omitted) {
   std::vector<Eigen::Index> columns;
   columns.reserve(k);
   for (Eigen::Index column = 0; column < k; ++column)
-    if (column != left_out) columns.push_back(column);
+    if (column != omitted) columns.push_back(column);
   return columns;
 }
 

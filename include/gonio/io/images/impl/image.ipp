@@ -166,7 +166,7 @@ GONIO_INLINE image read_png(const std::filesystem::path& path) {
 
   std::array<float, 256> linear{};
   for (std::size_t code = 0; code < linear.size(); ++code)
-    linear[code] = static_cast<float>(detail::decode_srgb(static_cast<double>(code) / 255.0));
+    linear[code] = static_cast<float>(detail::srgb_to_linear(static_cast<double>(code) / 255.0));
   image picture({static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), std::size_t{3}});
   std::transform(pixels.get(), pixels.get() + picture.size(), picture.data(),
                  [&](stbi_uc code) { return linear[code]; });

@@ -169,15 +169,15 @@ GONIO_INLINE void require_plausible_sides(const sample_set& samples, const std::
 }
 
 /// Notes how many rows are left out and why; throws gonio::error if they are more than the `kept` rows.
-GONIO_INLINE void note_left_out(const sample_rows& rows, std::size_t at_horizon, std::size_t kept,
-                                const sample_reading& reading, const std::string& name) {
-  const std::size_t left_out = at_horizon + rows.rows_without_value();
-  if (left_out == 0) return;
+GONIO_INLINE void note_omitted(const sample_rows& rows, std::size_t at_horizon, std::size_t kept,
+                               const sample_reading& reading, const std::string& name) {
+  const std::size_t omitted = at_horizon + rows.rows_without_value();
+  if (omitted == 0) return;
   std::string reasons = at_horizon > 0 ? "light or viewer is at 90 degrees" : "";
   if (rows.rows_without_value() > 0) reasons += message_of({reasons.empty() ? "" : "; ", rows.first_without_value()});
-  const std::string counts = message_of({name, ": ", left_out, " of ", left_out + kept, " ", rows.rows_are_called(2),
-                                         left_out == 1 ? " is" : " are", " left out: ", reasons});
-  if (left_out > kept) gonio::refuse({counts, ", expected at most half"});
+  const std::string counts = message_of({name, ": ", omitted, " of ", omitted + kept, " ", rows.rows_are_called(2),
+                                         omitted == 1 ? " is" : " are", " left out: ", reasons});
+  if (omitted > kept) gonio::refuse({counts, ", expected at most half"});
   if (reading.note) reading.note(counts);
 }
 
@@ -247,14 +247,14 @@ GONIO_INLINE sample_file read_sample_file(std::string_view text, const std::stri
     file.text.lines.push_back(row.position.line);
   }
   if (file.samples.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
-  detail::note_left_out(rows, at_horizon, static_cast<std::size_t>(file.samples.size()), reading, name);
+  detail::note_omitted(rows, at_horizon, static_cast<std::size_t>(file.samples.size()), reading, name);
   if (rows.assumes_side()) detail::require_plausible_sides(file.samples, name);
   if (rows.turns_viewers()) file.samples = with_viewers_turned(file.samples);
   file.quantity = rows.quantity();
   file.sign = rows.sign();
   file.provenance = rows.provenance();
   file.text.dialect = rows.dialect();
-  file.text.rows_left_out = at_horizon + rows.rows_without_value();
+  file.text.omitted_rows = at_horizon + rows.rows_without_value();
   file.text.assumes_side = rows.assumes_side();
   return file;
 }
