@@ -143,8 +143,14 @@ TEST_CASE("doubts add to the process, and errors that neighbours share do not av
                               doubting = process.with_doubts();
   const auto& at = process.at().angles;
   const gonio::discrepancy_model& model = process.expected().model;
-  const Eigen::MatrixXd expected = process.covariance() +
-                                   model.doubt.variance * gonio::discrepancy_covariance(at, model.doubt.lengths) +
+  const auto variance_of_doubt = [&](const gonio::half_difference& angles) {
+    return model.doubt.variance * (1.0 + model.doubt.rise * gonio::fresnel_rise(angles.theta_d));
+  };
+  Eigen::MatrixXd doubts = gonio::discrepancy_covariance(at, model.doubt.lengths);
+  for (Eigen::Index i = 0; i < doubts.rows(); ++i)
+    for (Eigen::Index j = 0; j < doubts.cols(); ++j)
+      doubts(i, j) *= std::sqrt(variance_of_doubt(at[i]) * variance_of_doubt(at[j]));
+  const Eigen::MatrixXd expected = process.covariance() + doubts +
                                    model.doubt.shared_error_variance * gonio::discrepancy_covariance(at, model.lengths);
   CHECK((doubting.covariance() - expected).norm() < 1e-12 * expected.norm());
   CHECK((doubting.values() - process.values()).norm() == 0.0);
@@ -153,7 +159,7 @@ TEST_CASE("doubts add to the process, and errors that neighbours share do not av
   const gonio::half_difference here{0.4, 0.3, 1.0};
   const Eigen::RowVectorXd row = Eigen::RowVectorXd::LinSpaced(process.at().rows.cols(), -1.0, 1.0);
   const Eigen::MatrixXd with = doubting.expected().between(process.at(), {row, {here}});
-  const double before = row.squaredNorm() / process.expected().observations + model.variance + model.doubt.variance +
+  const double before = row.squaredNorm() / process.expected().observations + model.variance + variance_of_doubt(here) +
                         gonio::error_variance_at(model, here);
   const double variance = before - (with.transpose() * expected.llt().solve(with))(0, 0);
   CHECK(doubting.deviation(row, here) == doctest::Approx(std::sqrt(variance)));

@@ -149,9 +149,16 @@ class near_field_photographs_experiment : photograph_experiment {
     std::map<std::string, json> found;
     for (std::size_t number = 0; number < given_.names.size(); ++number) {
       const std::string& name = given_.names[number];
-      const json key{"near-field-photographs", name,          given_.directions.filename().string(),
-                     given_.components,        given_.noise,  given_.angular_error,
-                     given_.field_of_view,     given_.pixels, given_.block};
+      const json key{"near-field-photographs",
+                     "intervals",
+                     name,
+                     given_.directions.filename().string(),
+                     given_.components,
+                     given_.noise,
+                     given_.angular_error,
+                     given_.field_of_view,
+                     given_.pixels,
+                     given_.block};
       found[name] = once(key, number, name, [&] { return errors_of(material(name)); });
     }
     return found;
@@ -210,7 +217,8 @@ class near_field_photographs_experiment : photograph_experiment {
             {"stated_env", stated_error.delta_e_env},
             {"raw_env", raw_error.delta_e_env},
             {"perfect_lights", perfect_error.delta_e_lights},
-            {"raw_lights", raw_error.delta_e_lights}};
+            {"raw_lights", raw_error.delta_e_lights},
+            {"intervals", raw_error.intervals.to_json()}};
   }
 
   const near_field_photographs_options& given_;
@@ -222,7 +230,8 @@ void print(const std::map<std::string, json>& found) {
   std::cout
       << "| material | samples | median error of a sample, as stated | pose found | Delta E env: perfect images | "
          "perfect, pose off | raw frames, as stated | raw frames, pose found | ratio to perfect | to perfect, pose "
-         "off | Delta E lights: perfect | raw frames |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+         "off | Delta E lights: perfect | raw frames | within 68 % | "
+         "within 95 % (worst region) |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& [name, errors] : found) {
     const auto number = [&, &of = errors](const char* key) { return of[key].number(); };
     std::cout << "| " << name << " | " << fixed(number("samples"), 0) << " | " << fixed(number("stated_error"), 1)
@@ -230,7 +239,8 @@ void print(const std::map<std::string, json>& found) {
               << fixed(number("misplaced_env"), 2) << " | " << fixed(number("stated_env"), 2) << " | "
               << fixed(number("raw_env"), 2) << " | " << fixed(number("raw_env") / number("perfect_env"), 2) << " | "
               << fixed(number("raw_env") / number("misplaced_env"), 2) << " | " << fixed(number("perfect_lights"), 2)
-              << " | " << fixed(number("raw_lights"), 2) << " |\n";
+              << " | " << fixed(number("raw_lights"), 2) << " | " << interval_counts(errors["intervals"]).text()
+              << " |\n";
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Base of the experiments that reconstruct measured materials from simulated photographs.
 
+#include "papers/our_own/interval_counts.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/reconstruction.hpp>
@@ -48,10 +49,17 @@ class photograph_experiment : protected left_out_experiment {
     return estimator_type(std::move(prior), gonio::discrepancy_model{}, given_.threads);
   }
 
-  /// Returns the errors of the reconstruction that `gonio reconstruct` makes.
-  [[nodiscard]] gonio::comparison judged(const estimator_type& estimator, const gonio::sample_set& samples,
-                                         const judged_material& of) const {
-    return compare(estimator.fit(samples).tabulate(library_.cells()), of);
+  /// Errors of a reconstruction, and how often its intervals hold.
+  struct judgement : gonio::comparison {
+    interval_counts intervals;
+  };
+
+  /// Judges the reconstruction that `gonio reconstruct` makes.
+  [[nodiscard]] judgement judged(const estimator_type& estimator, const gonio::sample_set& samples,
+                                 const judged_material& of) const {
+    const auto known = estimator.fit(samples);
+    const gonio::brdf_table table = known.tabulate(library_.cells());
+    return {compare(table, of), count_within(known, table, of.truth)};
   }
 
   /// Returns the median relative error of the samples in green, in their stated directions.

@@ -4,6 +4,7 @@
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/highlight_shape.hpp"
+#include "papers/our_own/interval_counts.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include "papers/our_own/rank_correlation.hpp"
 #include "papers/our_own/scan_samplings.hpp"
@@ -97,7 +98,7 @@ class experiment : left_out_experiment {
                          given_.surrogates,
                          given_.wrong,
                          given_.receiver_half_angle,
-                         "shape",
+                         "intervals",
                          given_.lobe_width,
                          given_.wrong_factor,
                          given_.wrong_channels,
@@ -159,41 +160,27 @@ class experiment : left_out_experiment {
   struct estimated {
     gonio::brdf_table table;
     std::vector<Eigen::Index> left_out = {};
-    /// For each of eight regions: the number of values, and how many are within their 68 % and 95 % intervals.
-    std::vector<double> values = std::vector<double>(8, 0.0), within_68 = values, within_95 = values;
+    interval_counts intervals = {};
     double rank = 0.0;    ///< rank correlation of deviations and errors
     bool warned = false;  ///< whether the highlight is known only to a factor of 4 or worse
   };
 
-  /// Counts values within their intervals at every 37th cell. The regions are split by theta_h (2, 10 and 30 degrees)
-  /// and theta_d (45 degrees).
-  void count_within(estimated& found, const gonio::reconstruction<gonio::log_relative>::result_type& known,
-                    const gonio::brdf_table& truth, double judged_from) const {
+  /// Returns the rank correlation of stated deviations and errors at every 37th cell.
+  [[nodiscard]] double rank_of_deviations(const interval_counts::reconstructed_type& known,
+                                          const gonio::brdf_table& table, const gonio::brdf_table& truth,
+                                          double judged_from) const {
     std::vector<double> deviations, errors;
     for (Eigen::Index cell = 0; cell < library_.cells().size(); cell += 37) {
       const gonio::location at = gonio::locate_cell(library_.cells(), cell);
-      const double theta_h = gonio::degrees(at.angles.theta_h);
       if (at.angles.theta_h < judged_from) continue;
-      const int region = 2 * (theta_h < 2.0    ? 0
-                              : theta_h < 10.0 ? 1
-                              : theta_h < 30.0 ? 2
-                                               : 3) +
-                         (gonio::degrees(at.angles.theta_d) < 45.0 ? 0 : 1);
-      const gonio::rgb value = truth.at(cell).max(0.0), estimate = found.table.at(cell);
-      const auto holds = [&](gonio::confidence_level level) {
-        const auto [low, high] = known.interval(estimate, at, level);
-        return static_cast<double>((value >= low && value <= high).count());
-      };
-      found.values[region] += 3.0;
-      found.within_68[region] += holds(gonio::confidence_level::sixty_eight_percent);
-      found.within_95[region] += holds(gonio::confidence_level::ninety_five_percent);
+      const gonio::rgb value = truth.at(cell).max(0.0), estimate = table.at(cell);
       double error = 0.0;
       for (Eigen::Index c = 0; c < 3; ++c)
         error += std::abs(metric_.forward(value[c], at) - metric_.forward(estimate[c], at));
       deviations.push_back(known.deviation(at));
       errors.push_back(error);
     }
-    found.rank = rank_correlation(deviations, errors);
+    return rank_correlation(deviations, errors);
   }
 
   /// Returns for each channel whether the highlight is within the gamut. Only then is a ratio of peaks meaningful.
@@ -219,13 +206,14 @@ class experiment : left_out_experiment {
     const auto paint = (method == "discrepancy" ? both.keeping_all() : both)
                            .fit(method == "untold" ? samples : samples.through(given_.aperture()));
     estimated found{paint.tabulate(library_.cells()), paint.rejected()};
-    count_within(found, paint, material.truth, judged_from);
+    found.intervals = count_within(paint, found.table, material.truth, judged_from);
+    found.rank = rank_of_deviations(paint, found.table, material.truth, judged_from);
     found.warned = paint.certainty().highlight_factor > 4.0;
     return found;
   }
 
   json errors_of(const judged_material& material, const sampling& where, const std::string& method) {
-    std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
+    interval_counts intervals;
     double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0, named = 0.0, left_out = 0.0;
     double rank = 0.0, peaks_off = 0.0, peaks_off_warned = 0.0, warned = 0.0, dips = 0.0, turning_points = 0.0;
     const std::array<bool, 3> inside = in_gamut(material);
@@ -254,11 +242,7 @@ class experiment : left_out_experiment {
       peaks_off_warned += off && found.warned ? 1.0 : 0.0;
       warned += found.warned ? 1.0 : 0.0;
       rank += found.rank / times;
-      for (int region = 0; region < 8; ++region) {
-        values[region] += found.values[region];
-        within_68[region] += found.within_68[region];
-        within_95[region] += found.within_95[region];
-      }
+      intervals.add(found.intervals);
       left_out += static_cast<double>(found.left_out.size()) / times;
       const auto is_first = [&](Eigen::Index i) {
         const auto end = found.left_out.begin() + std::min(std::ssize(found.left_out), std::ssize(wrong));
@@ -273,9 +257,7 @@ class experiment : left_out_experiment {
             {"largest_peak", high},
             {"named", named},
             {"left_out", left_out},
-            {"values", values},
-            {"within_68", within_68},
-            {"within_95", within_95},
+            {"intervals", intervals.to_json()},
             {"rank", rank},
             {"dips", dips},
             {"turning_points", turning_points},
@@ -291,20 +273,9 @@ class experiment : left_out_experiment {
 
 /// Returns the coverage of the 68 and 95 % intervals, and the coverage of 95 % intervals in the worst region.
 std::string coverage(const json& materials) {
-  std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
-  for (const auto& [name, errors] : materials.items())
-    for (int region = 0; region < 8; ++region) {
-      values[region] += errors["values"].elements()[region].number();
-      within_68[region] += errors["within_68"].elements()[region].number();
-      within_95[region] += errors["within_95"].elements()[region].number();
-    }
-  const auto sum = [](const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); };
-  if (sum(values) == 0.0) return "- | -";
-  double worst = 1.0;
-  for (int region = 0; region < 8; ++region)
-    if (values[region] > 0.0) worst = std::min(worst, within_95[region] / values[region]);
-  return fixed(100.0 * sum(within_68) / sum(values), 1) + " | " + fixed(100.0 * sum(within_95) / sum(values), 1) +
-         " (" + fixed(100.0 * worst, 1) + ")";
+  interval_counts all;
+  for (const auto& [name, errors] : materials.items()) all.add(interval_counts(errors["intervals"]));
+  return all.text();
 }
 
 void print(const real_materials_options& given, const json& rows) {

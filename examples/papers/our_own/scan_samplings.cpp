@@ -1,10 +1,16 @@
 #include "scan_samplings.hpp"
 
+#include "papers/nielsen2015/nielsen_split.hpp"
 #include "tool/pages/fixed.hpp"
 #include <gonio/core/random.hpp>
+#include <gonio/design/near_field_geometry.hpp>
+#include <gonio/design/sphere_geometry.hpp>
+#include <gonio/io/measurements/samples.hpp>
 #include <gonio/table/valid_cells.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace papers {
 
@@ -38,6 +44,16 @@ sampling in_planes(const std::vector<double>& incidences, const std::vector<doub
   return {planes + lights + ", steps of " + cli::fixed(step, 1), {directions}};
 }
 
+/// Returns the directions of all pixels of a shipped design: one image for each of its pairs.
+template <gonio::design::capture_geometry Geometry>
+sampling in_images(const Geometry& geometry, const std::string& name) {
+  sampling all{name, {{}}};
+  for (const gonio::direction_pair& pair :
+       gonio::io::read_direction_pairs(shipped_directions() / (name + "-expected-error.csv")))
+    std::ranges::copy(geometry.directions(geometry.nearest(pair)), std::back_inserter(all.sets[0]));
+  return all;
+}
+
 }  // namespace
 
 std::vector<sampling> scan_samplings() {
@@ -46,6 +62,10 @@ std::vector<sampling> scan_samplings() {
     for (const double theta_i : {15.0, 45.0}) all.push_back(in_planes({theta_i}, {0.0}, step));
   for (const double step : {1.5, 5.0}) all.push_back(in_planes({0.0, 20.0, 40.0, 60.0}, {0.0}, step));
   all.push_back(in_planes({0.0, 20.0, 40.0, 60.0}, {0.0, 90.0}, 5.0));
+  for (const char* count : {"1", "2", "5"})
+    all.push_back(in_images(gonio::design::sphere_geometry(gonio::valid_cells()), std::string("sphere-") + count));
+  for (const char* count : {"1", "2"})
+    all.push_back(in_images(gonio::design::near_field_geometry(), std::string("near-field-25-") + count));
   return all;
 }
 

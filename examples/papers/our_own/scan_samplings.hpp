@@ -8,7 +8,8 @@
 namespace papers {
 
 /// Returns 20, 60 and 500 directions below some theta_h, with coverage counted only from 8 degrees farther out; then
-/// scans in steps of 1 to 10 degrees: one and four incidences in one plane, four in two planes.
+/// scans in steps of 1 to 10 degrees: one and four incidences in one plane, four in two planes; then images of
+/// spheres and of flat samples from close by, in the shipped designs.
 [[nodiscard]] std::vector<sampling> scan_samplings();
 
 }  // namespace papers

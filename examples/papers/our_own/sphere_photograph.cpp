@@ -101,8 +101,8 @@ class sphere_photograph_experiment : photograph_experiment {
       const std::string& name = given_.names[number];
       std::optional<estimator_type> estimator;
       for (const photograph_set& set : sets_of(given_)) {
-        const json key{"sphere-photograph", name,          set.name,      given_.components,
-                       given_.noise,        given_.pixels, given_.coarser};
+        const json key{"sphere-photograph", "intervals",  name,          set.name,
+                       given_.components,   given_.noise, given_.pixels, given_.coarser};
         found[set.name][name] = once(key, number, name + " " + set.name, [&] {
           if (!estimator) estimator.emplace(estimator_of(prior_of(material(name))));
           return errors_of(material(name), photograph(material(name), set), set.pairs.size(), *estimator);
@@ -160,10 +160,8 @@ class sphere_photograph_experiment : photograph_experiment {
     // Compare with perfect samples in the same directions.
     gonio::sample_set perfect = taken.samples;
     for (gonio::sample& s : perfect) s.value = material.measured(s.directions.pair());
-    const gonio::comparison photo = judged(estimator, taken.samples, material),
-                            same = judged(estimator, perfect, material);
-    const gonio::comparison alike =
-        compare(estimator.keeping_all().fit(taken.samples).tabulate(library_.cells()), material);
+    const auto photo = judged(estimator, taken.samples, material), same = judged(estimator, perfect, material),
+               alike = judged(estimator.keeping_all(), taken.samples, material);
     return {{"samples", taken.samples.size()},
             {"pixels", taken.pixels},
             {"views", std::to_string(taken.views) + " of " + std::to_string(views)},
@@ -173,7 +171,8 @@ class sphere_photograph_experiment : photograph_experiment {
             {"photo_env", photo.delta_e_env},
             {"alike_env", alike.delta_e_env},
             {"perfect_lights", same.delta_e_lights},
-            {"photo_lights", photo.delta_e_lights}};
+            {"photo_lights", photo.delta_e_lights},
+            {"intervals", photo.intervals.to_json()}};
   }
 
   const sphere_photograph_options& given_;
@@ -184,7 +183,8 @@ void print(const std::map<std::string, std::map<std::string, json>>& found) {
   std::cout << "| set | material | photographs with light | pixels | samples | centre off, pixels | median error of a "
                "sample | Delta E env: "
                "perfect | photographs | ratio | all samples alike | Delta E lights: perfect | photographs "
-               "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+               "| within 68 % | within 95 % (worst region) |\n"
+               "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& [file, materials] : found)
     for (const auto& [name, errors] : materials) {
       const auto number = [&, &of = errors](const char* key) { return of[key].number(); };
@@ -193,7 +193,8 @@ void print(const std::map<std::string, std::map<std::string, json>>& found) {
                 << fixed(number("off"), 2) << " | " << fixed(number("median_error"), 1) << " % | "
                 << fixed(number("perfect_env"), 2) << " | " << fixed(number("photo_env"), 2) << " | "
                 << fixed(number("photo_env") / number("perfect_env"), 2) << " | " << fixed(number("alike_env"), 2)
-                << " | " << fixed(number("perfect_lights"), 2) << " | " << fixed(number("photo_lights"), 2) << " |\n";
+                << " | " << fixed(number("perfect_lights"), 2) << " | " << fixed(number("photo_lights"), 2) << " | "
+                << interval_counts(errors["intervals"]).text() << " |\n";
     }
 }
 

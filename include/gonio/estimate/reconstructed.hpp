@@ -36,9 +36,10 @@ enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 /// Returns half the width of an interval in standard deviations of the model: a conformal factor (Lee, Barber and
 /// Willett 2023, doi:10.48550/arXiv.2306.06342). The factor is a quantile of reconstruction errors in units of these
 /// deviations, for measured materials whose families are not in the prior, and samples in all directions, below some
-/// theta_h, or in planes. The interval holds for such materials, averaged over directions. `unknown` is the variance
-/// after measuring divided by the variance before. `unknown` changes only the 68 % factor, because errors near samples
-/// have heavier tails than errors far from all samples. The number of samples matters only above 500.
+/// theta_h, in planes, or in images. The interval holds for such materials, averaged over directions. `unknown` is the
+/// variance after measuring divided by the variance before. It increases the 68 % factor, because errors near samples
+/// have heavier tails than errors far from all samples. More than 500 samples decrease both factors where little is
+/// unknown.
 [[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples, double unknown) noexcept;
 
 /// The uncertainty of a reconstruction in a few numbers.

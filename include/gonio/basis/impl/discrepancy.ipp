@@ -13,15 +13,21 @@
 
 namespace gonio {
 
+GONIO_INLINE double fresnel_rise(double theta_d) noexcept {
+  const double grazing = std::pow(1.0 - std::cos(theta_d), 5);
+  return std::log1p(24.0 * grazing) / std::log(25.0);
+}
+
 namespace detail {
 
 GONIO_INLINE discrepancy_coordinates coordinates_of(const half_difference& angles,
                                                     const correlation_lengths& lengths) noexcept {
   constexpr double right_angle = std::numbers::pi / 2.0;
   const double radius = 0.5 * std::sin(angles.theta_d) / lengths.azimuth;
-  return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle) / lengths.theta_h,
-          angles.theta_d / right_angle / lengths.theta_d, radius * std::cos(2.0 * angles.phi_d),
-          radius * std::sin(2.0 * angles.phi_d)};
+  double along_theta_d = angles.theta_d / right_angle;
+  if (lengths.rise != 0.0) along_theta_d += lengths.rise * fresnel_rise(angles.theta_d);
+  return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle) / lengths.theta_h, along_theta_d / lengths.theta_d,
+          radius * std::cos(2.0 * angles.phi_d), radius * std::sin(2.0 * angles.phi_d)};
 }
 
 [[nodiscard]] inline double squared_exponential(double squared_distance) noexcept {
@@ -49,6 +55,8 @@ GONIO_INLINE discrepancy_coordinates coordinates_of(const half_difference& angle
   if (!positive(lengths.theta_h) || !positive(lengths.theta_d) || !positive(lengths.azimuth))
     refuse({"the correlation lengths of a discrepancy must be positive and finite, not ", lengths.theta_h, ", ",
             lengths.theta_d, " and ", lengths.azimuth});
+  if (!(lengths.rise >= 0.0) || !std::isfinite(lengths.rise))
+    refuse({"the rise of a discrepancy's lengths must be at least 0 and finite, not ", lengths.rise});
   std::vector<discrepancy_coordinates> coordinates;
   for (const half_difference& each : angles) {
     coordinates.push_back(coordinates_of(each, lengths));

@@ -80,10 +80,30 @@ GONIO_INLINE double error_variance_at(const discrepancy_model& model, const half
   return model.error_variance + model.grazing_variance * grazing_share(angles, radians(2.5));
 }
 
+namespace detail {
+
+[[nodiscard]] inline double variance_of_doubt(const doubt_model& doubt, const half_difference& angles) noexcept {
+  return doubt.variance * (1.0 + doubt.rise * fresnel_rise(angles.theta_d));
+}
+
+/// Adds the covariance of the doubts between some angles (rows) and others (columns).
+GONIO_INLINE void add_doubts(const doubt_model& doubt, std::span<const half_difference> some,
+                             std::span<const half_difference> others, Eigen::MatrixXd& sum) {
+  const Eigen::MatrixXd correlation = discrepancy_covariance(some, others, doubt.lengths);
+  std::vector<double> deviations;
+  for (const half_difference& each : some) deviations.push_back(std::sqrt(variance_of_doubt(doubt, each)));
+  for (Eigen::Index j = 0; j < sum.cols(); ++j) {
+    const double deviation = std::sqrt(variance_of_doubt(doubt, others[j]));
+    for (Eigen::Index i = 0; i < sum.rows(); ++i) sum(i, j) += deviations[i] * deviation * correlation(i, j);
+  }
+}
+
+}  // namespace detail
+
 GONIO_INLINE Eigen::MatrixXd expected_covariance::among(const located_rows& all) const {
   Eigen::MatrixXd sum = detail::divided(product_with_transpose(all.rows), observations);
   if (model.variance != 0.0) add_scaled(model.variance, discrepancy_covariance(all.angles, model.lengths), sum);
-  if (doubts) add_scaled(model.doubt.variance, discrepancy_covariance(all.angles, model.doubt.lengths), sum);
+  if (doubts) detail::add_doubts(model.doubt, all.angles, all.angles, sum);
   return sum;
 }
 
@@ -91,8 +111,7 @@ GONIO_INLINE Eigen::MatrixXd expected_covariance::between(const located_rows& so
   Eigen::MatrixXd sum = detail::divided(product(some.rows, others.rows.transpose()), observations);
   if (model.variance != 0.0)
     add_scaled(model.variance, discrepancy_covariance(some.angles, others.angles, model.lengths), sum);
-  if (doubts)
-    add_scaled(model.doubt.variance, discrepancy_covariance(some.angles, others.angles, model.doubt.lengths), sum);
+  if (doubts) detail::add_doubts(model.doubt, some.angles, others.angles, sum);
   return sum;
 }
 
@@ -271,7 +290,8 @@ GONIO_INLINE double sample_process::deviation_before(const Eigen::RowVectorXd& r
                                                      const half_difference& angles) const {
   const discrepancy_model& model = expected().model;
   return std::sqrt(dot(row.data(), row.data(), row.size()) / expected().observations + model.variance +
-                   (expected().doubts ? model.doubt.variance : 0.0) + error_variance_at(model, angles));
+                   (expected().doubts ? detail::variance_of_doubt(model.doubt, angles) : 0.0) +
+                   error_variance_at(model, angles));
 }
 
 GONIO_INLINE process_prediction sample_process::predict(const located_rows& others,
