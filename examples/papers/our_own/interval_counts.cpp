@@ -3,6 +3,7 @@
 #include "tool/pages/fixed.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 namespace papers {

@@ -4,6 +4,7 @@
 #include "tool/files/json.hpp"
 #include <gonio/estimate/reconstruction.hpp>
 
+#include <string>
 #include <vector>
 
 namespace papers {
