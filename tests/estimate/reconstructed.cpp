@@ -211,20 +211,6 @@ TEST_CASE("samples in finer steps, and samples that are all in one region, do no
   CHECK(known.known_to_outside > known.known_to);
 }
 
-TEST_CASE("more than 500 samples narrow intervals near the samples, not far from all of them") {
-  for (const auto level :
-       {gonio::confidence_level::sixty_eight_percent, gonio::confidence_level::ninety_five_percent}) {
-    const auto factor = [&](Eigen::Index samples, double unknown) {
-      return gonio::deviations_of(level, samples, unknown);
-    };
-    CHECK(factor(5, 0.001) == factor(500, 0.001));
-    CHECK(factor(5000, 0.001) < 0.75 * factor(500, 0.001));
-    CHECK(factor(5000, 0.02) > factor(5000, 0.001));
-    CHECK(factor(5000, 0.05) == doctest::Approx(factor(500, 0.05)));
-    CHECK(factor(5000, 0.5) == doctest::Approx(factor(500, 0.5)));
-  }
-}
-
 TEST_CASE("no estimate dips in the mirror direction, in its table and where it is evaluated") {
   const valid_cells& cells = posterior_cells();
   Eigen::Index filled = 0;

@@ -37,10 +37,10 @@ enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 /// Willett 2023, doi:10.48550/arXiv.2306.06342). The factor is a quantile of reconstruction errors in units of these
 /// deviations, for measured materials whose families are not in the prior, and samples in all directions, below some
 /// theta_h, in planes, or in images. The interval holds for such materials, averaged over directions. `unknown` is the
-/// variance after measuring divided by the variance before. It increases the 68 % factor, because errors near samples
-/// have heavier tails than errors far from all samples. More than 500 samples decrease both factors where little is
-/// unknown.
-[[nodiscard]] double deviations_of(confidence_level level, Eigen::Index samples, double unknown) noexcept;
+/// variance after measuring divided by the variance before. It changes only the 68 % factor, because errors near
+/// samples have heavier tails than errors far from all samples. The number of samples does not matter: from thousands
+/// of samples all over the hemisphere intervals are too wide, but from images they are not.
+[[nodiscard]] double deviations_of(confidence_level level, double unknown) noexcept;
 
 /// The uncertainty of a reconstruction in a few numbers.
 struct certainty {
@@ -169,7 +169,7 @@ class reconstructed {
     const Eigen::RowVectorXd row = row_at(prior_, at);
     const double after = doubting_.deviation(row, at.angles),
                  unknown = after / doubting_.deviation_before(row, at.angles);
-    return deviations_of(level, kept_, unknown * unknown) * std::sqrt(scale_) * after;
+    return deviations_of(level, unknown * unknown) * std::sqrt(scale_) * after;
   }
 
   /// Returns the interval around a value at a location, for each channel separately; never below zero.

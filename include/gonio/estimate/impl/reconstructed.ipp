@@ -12,14 +12,9 @@
 
 namespace gonio {
 
-GONIO_INLINE double deviations_of(confidence_level level, Eigen::Index samples, double unknown) noexcept {
-  const auto n = static_cast<double>(std::max<Eigen::Index>(samples, 1));
-  // The posterior uses only 500 samples. With more, the estimate is better near them, but not where a twentieth of the
-  // variance remains. The factor was measured up to 20,000 samples.
-  const double many = std::pow(std::clamp(500.0 / n, 1.0 / 40.0, 1.0), 1.0 / 7.0),
-               here = many + (1.0 - many) * std::min(20.0 * unknown, 1.0);
-  if (level == confidence_level::ninety_five_percent) return 1.85 * here;
-  return 0.5 * (here + unknown * std::sqrt(unknown));
+GONIO_INLINE double deviations_of(confidence_level level, double unknown) noexcept {
+  if (level == confidence_level::ninety_five_percent) return 1.85;
+  return 0.5 * (1.0 + unknown * std::sqrt(unknown));
 }
 
 namespace detail {
