@@ -11,6 +11,7 @@
 #include <gonio/core/directional_light.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/finite.hpp>
+#include <gonio/core/fresnel.hpp>
 #include <gonio/core/half.hpp>
 #include <gonio/core/huge_pages.hpp>
 #include <gonio/core/interpolated_colour.hpp>

@@ -8,7 +8,6 @@
 #include <gonio/model/fit_model.hpp>
 #include <gonio/model/fit_observations.hpp>
 #include <gonio/model/formula_materials.hpp>
-#include <gonio/model/fresnel.hpp>
 #include <gonio/model/fresnel_lobe.hpp>
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/instrument_readings.hpp>

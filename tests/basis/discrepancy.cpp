@@ -88,12 +88,12 @@ TEST_CASE("phi_d counts modulo 180 degrees, and not at all where theta_d is zero
   same({0.3, 0.0, 0.1}, {0.3, 0.0, 1.4});
 }
 
-TEST_CASE("theta_d counts more towards grazing if the lengths have a rise") {
+TEST_CASE("theta_d counts more towards grazing if the lengths have a Fresnel weight") {
   // The logarithm of Schlick's reflectance, from f0 = .04 at normal incidence to 1 at grazing.
   CHECK(gonio::fresnel_rise(0.0) == 0.0);
   CHECK(gonio::fresnel_rise(gonio::radians(60.0)) == doctest::Approx(std::log(1.0 + 24.0 / 32.0) / std::log(25.0)));
   CHECK(gonio::fresnel_rise(gonio::radians(90.0)) == doctest::Approx(1.0));
-  const gonio::correlation_lengths plain{.theta_d = 0.5}, rising{.theta_d = 0.5, .rise = 2.0};
+  const gonio::correlation_lengths plain{.theta_d = 0.5}, rising{.theta_d = 0.5, .fresnel_weight = 2.0};
   const half_difference low{0.2, 0.3, 0.0}, high{0.2, 1.3, 0.0}, higher{0.2, 1.4, 0.0};
   const std::vector<half_difference> one{high};
   const auto correlation = [&](const half_difference& other, const gonio::correlation_lengths& lengths) {
@@ -171,5 +171,5 @@ TEST_CASE("an impossible discrepancy is refused") {
   refused(some_centres(2), 0.0, {}, {"amplitude", "positive", "0"});
   refused(some_centres(2), nan, {}, {"amplitude", "nan"});
   refused(some_centres(2), 1.0, {0.1, -0.2, 0.4}, {"correlation lengths", "-0.2"});
-  refused(some_centres(2), 1.0, {.rise = -0.5}, {"rise", "at least 0", "-0.5"});
+  refused(some_centres(2), 1.0, {.fresnel_weight = -0.5}, {"Fresnel weight", "at least 0", "-0.5"});
 }

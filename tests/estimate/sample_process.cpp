@@ -144,7 +144,7 @@ TEST_CASE("doubts add to the process, and errors that neighbours share do not av
   const auto& at = process.at().angles;
   const gonio::discrepancy_model& model = process.expected().model;
   const auto variance_of_doubt = [&](const gonio::half_difference& angles) {
-    return model.doubt.variance * (1.0 + model.doubt.rise * gonio::fresnel_rise(angles.theta_d));
+    return model.doubt.variance * (1.0 + model.doubt.fresnel_weight * gonio::fresnel_rise(angles.theta_d));
   };
   Eigen::MatrixXd doubts = gonio::discrepancy_covariance(at, model.doubt.lengths);
   for (Eigen::Index i = 0; i < doubts.rows(); ++i)

@@ -1,8 +1,8 @@
 #include "../base64.hpp"
 #include "../json.hpp"
 #include "scratch.hpp"
+#include <gonio/core/fresnel.hpp>
 #include <gonio/io/materials/renderer_material.hpp>
-#include <gonio/model/fresnel.hpp>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
@@ -96,12 +96,12 @@ TEST_CASE("Mitsuba: the sum of both lobes") {
 TEST_CASE("a conductor reflects f0 at normal incidence and nearly follows Schlick elsewhere") {
   for (const double f0 : {0.02, 0.04, 0.1, 0.3, 0.6, 0.9}) {
     const auto found = gonio::io::detail::conductor_like_schlick(f0);
-    CHECK(gonio::model::fresnel_conductor(1.0, found.index, found.extinction) == doctest::Approx(f0).epsilon(1e-6));
+    CHECK(gonio::fresnel_conductor(1.0, found.index, found.extinction) == doctest::Approx(f0).epsilon(1e-6));
     const double most = f0 >= 0.6 ? 0.006 : f0 >= 0.3 ? 0.06 : 0.32;
     for (double degrees = 5.0; degrees <= 85.0; degrees += 10.0) {
       const double cosine = std::cos(gonio::radians(degrees));
-      CHECK(std::abs(gonio::model::fresnel_conductor(cosine, found.index, found.extinction) /
-                         gonio::model::fresnel_schlick(cosine, f0) -
+      CHECK(std::abs(gonio::fresnel_conductor(cosine, found.index, found.extinction) /
+                         gonio::fresnel_schlick(cosine, f0) -
                      1.0) < most);
     }
   }

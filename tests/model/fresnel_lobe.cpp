@@ -9,7 +9,7 @@ TEST_CASE("a lobe with Fresnel's factor is the lobe times it") {
   const gonio::model::phong_blinn without({0.2, 0.4, 0.8}, {.shininess = 20.0, .alpha = 0.3});
   const gonio::direction wi = gonio::spherical_direction(0.9, 0.1), wo = gonio::spherical_direction(0.7, 2.9);
   const double cosine = wi.dot((wi + wo).normalized());
-  CHECK(f(wi, wo)[1] == doctest::Approx(without(wi, wo)[1] * gonio::model::fresnel_dielectric(cosine, 1.6)));
+  CHECK(f(wi, wo)[1] == doctest::Approx(without(wi, wo)[1] * gonio::fresnel_dielectric(cosine, 1.6)));
 }
 
 TEST_CASE("its name and parameters are those of the lobe, and the refractive index") {

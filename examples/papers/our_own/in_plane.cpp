@@ -3,6 +3,7 @@
 
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
+#include "papers/our_own/interval_counts.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include "tool/files/json.hpp"
 #include "tool/pages/fixed.hpp"
@@ -138,7 +139,7 @@ class in_plane_experiment : left_out_experiment {
       double squares = 0.0, within = 0.0, count = 0.0;
       std::vector<double> deviations;
     } near, far;
-    for (Eigen::Index cell = 0; cell < library_.cells().size(); cell += 37) {
+    for (const Eigen::Index cell : judged_cells(library_.cells())) {
       const gonio::location at = gonio::locate_cell(library_.cells(), cell);
       const double phi_d = gonio::degrees(at.angles.phi_d), from_plane = std::min(phi_d, 180.0 - phi_d);
       if (from_plane > 10.0 && from_plane < 30.0) continue;

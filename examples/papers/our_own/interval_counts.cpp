@@ -67,13 +67,18 @@ std::string interval_counts::text() const {
   return share(within_68_) + " | " + share(within_95_) + " (" + cli::fixed(100.0 * worst, 1) + ")";
 }
 
+std::vector<Eigen::Index> judged_cells(const gonio::valid_cells& cells, double smallest_theta_h) {
+  std::vector<Eigen::Index> judged;
+  for (Eigen::Index cell = 0; cell < cells.size(); cell += 37)
+    if (cells.angles(cell).theta_h >= smallest_theta_h) judged.push_back(cell);
+  return judged;
+}
+
 interval_counts count_within(const interval_counts::reconstructed_type& known, const gonio::brdf_table& table,
                              const gonio::brdf_table& truth, double smallest_theta_h) {
   interval_counts counts;
-  for (Eigen::Index cell = 0; cell < table.cells().size(); cell += 37) {
-    const gonio::location at = gonio::locate_cell(table.cells(), cell);
-    if (at.angles.theta_h >= smallest_theta_h) counts.add(known, table.at(cell), truth.at(cell).max(0.0), at);
-  }
+  for (const Eigen::Index cell : judged_cells(table.cells(), smallest_theta_h))
+    counts.add(known, table.at(cell), truth.at(cell).max(0.0), gonio::locate_cell(table.cells(), cell));
   return counts;
 }
 

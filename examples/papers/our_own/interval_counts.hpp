@@ -31,7 +31,10 @@ class interval_counts {
   std::vector<double> values_ = std::vector<double>(8, 0.0), within_68_ = values_, within_95_ = values_;
 };
 
-/// Counts at every 37th cell. `table` holds the estimates.
+/// Returns every 37th cell whose theta_h is at least the smallest: enough to judge uncertainty, which is smooth.
+[[nodiscard]] std::vector<Eigen::Index> judged_cells(const gonio::valid_cells& cells, double smallest_theta_h = 0.0);
+
+/// Counts at the judged cells. `table` holds the estimates.
 [[nodiscard]] interval_counts count_within(const interval_counts::reconstructed_type& known,
                                            const gonio::brdf_table& table, const gonio::brdf_table& truth,
                                            double smallest_theta_h = 0.0);

@@ -165,14 +165,13 @@ class experiment : left_out_experiment {
     bool warned = false;  ///< whether the highlight is known only to a factor of 4 or worse
   };
 
-  /// Returns the rank correlation of stated deviations and errors at every 37th cell.
+  /// Returns the rank correlation of stated deviations and errors at the judged cells.
   [[nodiscard]] double rank_of_deviations(const interval_counts::reconstructed_type& known,
                                           const gonio::brdf_table& table, const gonio::brdf_table& truth,
                                           double judged_from) const {
     std::vector<double> deviations, errors;
-    for (Eigen::Index cell = 0; cell < library_.cells().size(); cell += 37) {
+    for (const Eigen::Index cell : judged_cells(library_.cells(), judged_from)) {
       const gonio::location at = gonio::locate_cell(library_.cells(), cell);
-      if (at.angles.theta_h < judged_from) continue;
       const gonio::rgb value = truth.at(cell).max(0.0), estimate = table.at(cell);
       double error = 0.0;
       for (Eigen::Index c = 0; c < 3; ++c)

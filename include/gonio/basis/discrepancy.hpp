@@ -23,17 +23,17 @@
 namespace gonio {
 
 /// Returns how far Fresnel's reflectance has risen at theta_d, in the logarithm: 0 at normal incidence, .17 at 60
-/// degrees, .72 at 80, and 1 at 90. By Schlick's approximation with f0 = .04 (model/fresnel.hpp).
+/// degrees, .72 at 80, and 1 at 90. By `fresnel_schlick` with f0 = .04.
 [[nodiscard]] double fresnel_rise(double theta_d) noexcept;
 
 /// The correlation lengths of a discrepancy: the standard deviations of its squared-exponential covariance in the
-/// coordinates sqrt(theta_h / 90 degrees), theta_d / 90 degrees + `rise` fresnel_rise(theta_d) and sin theta_d (cos 2
-/// phi_d, sin 2 phi_d) / 2.
+/// coordinates sqrt(theta_h / 90 degrees), theta_d / 90 degrees + `fresnel_weight` fresnel_rise(theta_d) and sin
+/// theta_d (cos 2 phi_d, sin 2 phi_d) / 2.
 struct correlation_lengths {
   double theta_h = 0.1;
   double theta_d = 0.2;
   double azimuth = 0.4;
-  double rise = 0.0;
+  double fresnel_weight = 0.0;
 };
 
 namespace detail {
@@ -46,7 +46,7 @@ using discrepancy_coordinates = std::array<double, 4>;
 }  // namespace detail
 
 /// Returns the covariance k of all pairs of angles, for an amplitude of 1: n x n. Throws gonio::error if an angle is
-/// not finite, a length is not positive, or the rise is negative. O(n^2).
+/// not finite, a length is not positive, or the Fresnel weight is negative. O(n^2).
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                      const correlation_lengths& lengths = {});
 

@@ -42,7 +42,7 @@ struct located_samples {
   [[nodiscard]] located_samples in_three_channels() const;
 
   /// Returns the samples at their invisible wavelengths; none if no wavelength is visible, or all are.
-  [[nodiscard]] std::optional<located_samples> invisible_channels() const;
+  [[nodiscard]] std::optional<located_samples> at_invisible_wavelengths() const;
 
   [[nodiscard]] std::vector<half_difference> angles() const;
 

@@ -39,7 +39,7 @@ enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 /// theta_h, in planes, or in images. The interval holds for such materials, averaged over directions. `unknown` is the
 /// variance after measuring divided by the variance before. It changes only the 68 % factor, because errors near
 /// samples have heavier tails than errors far from all samples. The number of samples does not matter: from thousands
-/// of samples all over the hemisphere intervals are too wide, but from images they are not.
+/// of samples all over the hemisphere intervals are too wide, from thousands in an image they are still too narrow.
 [[nodiscard]] double deviations_of(confidence_level level, double unknown) noexcept;
 
 /// The uncertainty of a reconstruction in a few numbers.
@@ -87,8 +87,8 @@ class reconstructed {
   using basis_type = joined<pca<Metric>, discrepancy<Metric>>;
   using fit_type = fitted_brdf<basis_type>;
 
-  /// The uncertainty uses at most this many samples, chosen at random. If there are more, the stated deviations are too
-  /// large, because the remaining samples are ignored.
+  /// The uncertainty uses at most this many samples, chosen at random, and ignores the others. If these are in all
+  /// directions, the stated deviations are too large.
   static constexpr Eigen::Index most_known = 500;
 
   /// Called by `reconstruction`. `known` is the process of the fitted samples, or of a subset of them. `all` is the

@@ -165,7 +165,7 @@ typename reconstruction<Metric>::selection reconstruction<Metric>::select(const 
   };
   if (rejects_) {
     chosen.found = judged(samples.kinds, colours, mapped);
-    if (const std::optional<located_samples> rest = samples.invisible_channels()) {
+    if (const std::optional<located_samples> rest = samples.at_invisible_wavelengths()) {
       const located_samples three = rest->in_three_channels();
       chosen.found = detail::inliers_of_both(std::move(chosen.found),
                                              judged(rest->kinds, three, map_samples(prior_, three, threads_)));

@@ -24,11 +24,11 @@ namespace gonio {
 /// the prior, from samples over all directions, below a theta_h, in planes and in images:
 /// docs/decisions/0037-certainty-of-scans.md.
 struct doubt_model {
-  /// Variance of a material's deviation from its process, `variance` (1 + `rise` fresnel_rise(theta_d)). Only nearby
-  /// samples determine this deviation. It grows and changes faster towards grazing theta_d, as Fresnel's reflectance
-  /// does.
-  double variance = 0.7, rise = 3.0;
-  correlation_lengths lengths{.theta_h = 0.15, .theta_d = 0.55, .azimuth = 1.1, .rise = 1.0};
+  /// Variance of a material's deviation from its process, `variance` (1 + `fresnel_weight` fresnel_rise(theta_d)). Only
+  /// nearby samples determine this deviation. It grows and changes faster towards grazing theta_d, as Fresnel's
+  /// reflectance does.
+  double variance = 0.7, fresnel_weight = 3.0;
+  correlation_lengths lengths{.theta_h = 0.15, .theta_d = 0.55, .azimuth = 1.1, .fresnel_weight = 1.0};
   /// Variance of errors that neighbouring samples share, with the correlation lengths of the discrepancy. Because of
   /// these errors, many close samples reduce the uncertainty hardly more than a few.
   double shared_error_variance = 0.005;

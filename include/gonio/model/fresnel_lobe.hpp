@@ -2,7 +2,7 @@
 /// Any lobe times the reflectance of a smooth dielectric surface. J. B. Nielsen et al. 2014 multiply the specular
 /// reflectance by R_F(wi . wh, eta).
 
-#include <gonio/model/fresnel.hpp>
+#include <gonio/core/fresnel.hpp>
 #include <gonio/model/phong.hpp>
 #include <gonio/model/ward.hpp>
 

@@ -7,7 +7,7 @@
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
-#include <gonio/model/fresnel.hpp>
+#include <gonio/core/fresnel.hpp>
 #include <gonio/model/lobe.hpp>
 
 #include <array>

@@ -6,8 +6,8 @@
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/direction.hpp>
+#include <gonio/core/fresnel.hpp>
 #include <gonio/core/rgb.hpp>
-#include <gonio/model/fresnel.hpp>
 #include <gonio/model/physical_properties.hpp>
 
 #include <algorithm>

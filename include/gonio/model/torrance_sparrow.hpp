@@ -3,7 +3,7 @@
 /// Cook and K. E. Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293): J.
 /// B. Nielsen's thesis, Eq. 2.19-2.22.
 
-#include <gonio/model/fresnel.hpp>
+#include <gonio/core/fresnel.hpp>
 #include <gonio/model/lobe.hpp>
 
 #include <numbers>

@@ -4,6 +4,7 @@
 #include <gonio/basis/discrepancy.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/fresnel.hpp>
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/product.hpp>
 
@@ -14,8 +15,8 @@
 namespace gonio {
 
 GONIO_INLINE double fresnel_rise(double theta_d) noexcept {
-  const double grazing = std::pow(1.0 - std::cos(theta_d), 5);
-  return std::log1p(24.0 * grazing) / std::log(25.0);
+  constexpr double f0 = 0.04;
+  return 1.0 - std::log(fresnel_schlick(std::cos(theta_d), f0)) / std::log(f0);
 }
 
 namespace detail {
@@ -25,7 +26,7 @@ GONIO_INLINE discrepancy_coordinates coordinates_of(const half_difference& angle
   constexpr double right_angle = std::numbers::pi / 2.0;
   const double radius = 0.5 * std::sin(angles.theta_d) / lengths.azimuth;
   double along_theta_d = angles.theta_d / right_angle;
-  if (lengths.rise != 0.0) along_theta_d += lengths.rise * fresnel_rise(angles.theta_d);
+  if (lengths.fresnel_weight != 0.0) along_theta_d += lengths.fresnel_weight * fresnel_rise(angles.theta_d);
   return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle) / lengths.theta_h, along_theta_d / lengths.theta_d,
           radius * std::cos(2.0 * angles.phi_d), radius * std::sin(2.0 * angles.phi_d)};
 }
@@ -55,8 +56,8 @@ GONIO_INLINE discrepancy_coordinates coordinates_of(const half_difference& angle
   if (!positive(lengths.theta_h) || !positive(lengths.theta_d) || !positive(lengths.azimuth))
     refuse({"the correlation lengths of a discrepancy must be positive and finite, not ", lengths.theta_h, ", ",
             lengths.theta_d, " and ", lengths.azimuth});
-  if (!(lengths.rise >= 0.0) || !std::isfinite(lengths.rise))
-    refuse({"the rise of a discrepancy's lengths must be at least 0 and finite, not ", lengths.rise});
+  if (!(lengths.fresnel_weight >= 0.0) || !std::isfinite(lengths.fresnel_weight))
+    refuse({"the Fresnel weight of a discrepancy must be at least 0 and finite, not ", lengths.fresnel_weight});
   std::vector<discrepancy_coordinates> coordinates;
   for (const half_difference& each : angles) {
     coordinates.push_back(coordinates_of(each, lengths));

@@ -65,7 +65,7 @@ GONIO_INLINE located_samples located_samples::in_three_channels() const {
   return three;
 }
 
-GONIO_INLINE std::optional<located_samples> located_samples::invisible_channels() const {
+GONIO_INLINE std::optional<located_samples> located_samples::at_invisible_wavelengths() const {
   std::vector<Eigen::Index> columns;
   std::vector<double> wavelengths;
   for (Eigen::Index c = 0; c < std::ssize(kinds.wavelengths()); ++c) {

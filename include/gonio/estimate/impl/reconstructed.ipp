@@ -34,18 +34,18 @@ GONIO_INLINE std::vector<half_difference> highlight_angles() {
 
 GONIO_INLINE certainty certainty_of(std::vector<double> everywhere, std::vector<double> highlight, double measured_to) {
   const valid_cells& cells = certainty_cells();
-  std::vector<double> grazing, beyond;
+  std::vector<double> grazing, outside;
   for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const half_difference angles = cells.angles(cell);
     const cosine_pair cosine = cosines(angles);
     if (std::min(cosine.i, cosine.o) < std::cos(radians(80.0))) grazing.push_back(everywhere[cell]);
-    if (angles.theta_h > measured_to + radians(4.0)) beyond.push_back(everywhere[cell]);
+    if (angles.theta_h > measured_to + radians(4.0)) outside.push_back(everywhere[cell]);
   }
   certainty known{.known_to = std::expm1(median(std::move(everywhere))),
                   .known_to_at_grazing = std::expm1(median(std::move(grazing))),
                   .highlight_factor = std::exp(median(std::move(highlight))),
                   .measured_to = measured_to};
-  if (5 * std::ssize(beyond) >= cells.size()) known.known_to_outside = std::expm1(median(std::move(beyond)));
+  if (5 * std::ssize(outside) >= cells.size()) known.known_to_outside = std::expm1(median(std::move(outside)));
   return known;
 }
 

@@ -83,7 +83,7 @@ GONIO_INLINE double error_variance_at(const discrepancy_model& model, const half
 namespace detail {
 
 [[nodiscard]] inline double variance_of_doubt(const doubt_model& doubt, const half_difference& angles) noexcept {
-  return doubt.variance * (1.0 + doubt.rise * fresnel_rise(angles.theta_d));
+  return doubt.variance * (1.0 + doubt.fresnel_weight * fresnel_rise(angles.theta_d));
 }
 
 /// Adds the covariance of the doubts between some angles (rows) and others (columns).

@@ -4,12 +4,12 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/fresnel.hpp>
 #include <gonio/io/bytes/file.hpp>
 #include <gonio/io/materials/renderer_material.hpp>
 #include <gonio/io/text/base64.hpp>
 #include <gonio/io/text/text.hpp>
 #include <gonio/model/analytic_brdf.hpp>
-#include <gonio/model/fresnel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ GONIO_INLINE rgb base_below_coat(const rgb& seen, double index) {
   double enters = 0.0;
   for (int step = 0; step < steps; ++step) {
     const double cosine = (step + 0.5) / steps;
-    enters += (1.0 - model::fresnel_dielectric(cosine, index)) * 2.0 * cosine / steps;
+    enters += (1.0 - fresnel_dielectric(cosine, index)) * 2.0 * cosine / steps;
   }
   const double leaves = enters / (index * index);
   return (seen / (enters * leaves + seen * (1.0 - leaves))).min(1.0);
@@ -74,8 +74,7 @@ GONIO_INLINE conductor conductor_like_schlick(double f0) {
     double error = 0.0;
     for (int degrees = 0; degrees <= 85; degrees += 5) {
       const double cosine = std::cos(radians(degrees));
-      const double ratio =
-          model::fresnel_conductor(cosine, index, extinction) / model::fresnel_schlick(cosine, bounded);
+      const double ratio = fresnel_conductor(cosine, index, extinction) / fresnel_schlick(cosine, bounded);
       error = std::max(error, std::abs(ratio - 1.0));
     }
     if (error >= least_error) continue;

@@ -1,4 +1,4 @@
-#include <gonio/model/fresnel.hpp>
+#include <gonio/core/fresnel.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -21,25 +21,23 @@ TEST_CASE("dielectrics and conductors are Fresnel's amplitudes") {
   CHECK(rc::check([] {
     const double cosine = 1e-4 * *rc::gen::inRange(1, 10'001), n = 1.0 + 1e-3 * *rc::gen::inRange(10, 3'000),
                  k = 1e-3 * *rc::gen::inRange(0, 5'000);
-    RC_ASSERT(std::abs(gonio::model::fresnel_dielectric(cosine, n) - by_amplitudes(cosine, n)) < 1e-12);
-    RC_ASSERT(std::abs(gonio::model::fresnel_conductor(cosine, n, k) - by_amplitudes(cosine, {n, k})) < 1e-9);
-    RC_ASSERT(std::abs(gonio::model::fresnel_conductor(cosine, n, 0.0) - gonio::model::fresnel_dielectric(cosine, n)) <
-              1e-9);
+    RC_ASSERT(std::abs(gonio::fresnel_dielectric(cosine, n) - by_amplitudes(cosine, n)) < 1e-12);
+    RC_ASSERT(std::abs(gonio::fresnel_conductor(cosine, n, k) - by_amplitudes(cosine, {n, k})) < 1e-9);
+    RC_ASSERT(std::abs(gonio::fresnel_conductor(cosine, n, 0.0) - gonio::fresnel_dielectric(cosine, n)) < 1e-9);
   }));
 }
 
 TEST_CASE("at normal incidence and at grazing angles") {
   for (const double n : {1.1, 1.5, 2.4}) {
     CAPTURE(n);
-    CHECK(gonio::model::fresnel_dielectric(1.0, n) == doctest::Approx(gonio::model::normal_reflectance(n)));
-    CHECK(gonio::model::fresnel_dielectric(0.0, n) == doctest::Approx(1.0));
-    CHECK(gonio::model::fresnel_schlick(1.0, gonio::model::normal_reflectance(n)) ==
-          doctest::Approx(gonio::model::normal_reflectance(n)));
-    CHECK(gonio::model::fresnel_schlick(0.0, gonio::model::normal_reflectance(n)) == doctest::Approx(1.0));
+    CHECK(gonio::fresnel_dielectric(1.0, n) == doctest::Approx(gonio::normal_reflectance(n)));
+    CHECK(gonio::fresnel_dielectric(0.0, n) == doctest::Approx(1.0));
+    CHECK(gonio::fresnel_schlick(1.0, gonio::normal_reflectance(n)) == doctest::Approx(gonio::normal_reflectance(n)));
+    CHECK(gonio::fresnel_schlick(0.0, gonio::normal_reflectance(n)) == doctest::Approx(1.0));
   }
   // For glass, the error of Schlick's approximation is below 0.04.
   for (double cosine = 0.0; cosine <= 1.0; cosine += 0.01)
-    CHECK(std::abs(gonio::model::fresnel_schlick(cosine, 0.04) - gonio::model::fresnel_dielectric(cosine, 1.5)) < 0.04);
+    CHECK(std::abs(gonio::fresnel_schlick(cosine, 0.04) - gonio::fresnel_dielectric(cosine, 1.5)) < 0.04);
   // Gold at 550 nm.
-  CHECK(gonio::model::fresnel_conductor(1.0, 0.43, 2.455) == doctest::Approx(0.786).epsilon(0.01));
+  CHECK(gonio::fresnel_conductor(1.0, 0.43, 2.455) == doctest::Approx(0.786).epsilon(0.01));
 }

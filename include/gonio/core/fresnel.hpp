@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gonio::model {
+namespace gonio {
 
 /// Schlick's approximation: f0 + (1 - f0) (1 - cosine)^5. C. Schlick, "An Inexpensive BRDF Model for Physically-based
 /// Rendering", EG 1994 (doi:10.1111/1467-8659.1330233); J. B. Nielsen's thesis (2016), Eq. 2.21.
@@ -50,4 +50,4 @@ template <class Real>
   return 0.5 * across * (1.0 + (far - near) / (far + near));
 }
 
-}  // namespace gonio::model
+}  // namespace gonio
