@@ -21,6 +21,7 @@ TEST_CASE("every member of a principal component basis") {
   CHECK(prior.offset(3) == prior.mean()[3]);
   CHECK(prior.names().size() == 4);
   CHECK(prior.coefficients().rows() == 12);
+  CHECK(prior.observations() == 12.0);
   CHECK(prior.singular_values()[0] > prior.singular_values()[5]);
   CHECK(prior.explained_variance() > 0.9);
   CHECK(prior.explained_variance() <= 1.0);

@@ -49,7 +49,7 @@ TEST_CASE("the posterior over candidates is the estimator's fit, and its deviati
     const gonio::location& at = sequence().locations()[cell];
     CHECK(estimator.prior().metric().inverse(known.mean(cell, 1), at) ==
           doctest::Approx(fit.at(cell)[1]).epsilon(3e-3));
-    const double deviation = process.deviation(gonio::row_at(estimator.prior(), at), at.angles),
+    const double deviation = process.deviations(gonio::locate_rows(estimator.prior(), {&at, 1}))[0],
                  variance = deviation * deviation - gonio::error_variance_at(estimator.model(), at.angles);
     CHECK(known.covariance(cell, cell) == doctest::Approx(variance).epsilon(1e-6));
     // The deviation of the fit also includes the doubts.

@@ -126,6 +126,17 @@ TEST_CASE("more samples make surer, and intervals are nested and not negative") 
     sum_many += with_many[i];
   }
   CHECK(sum_many < sum_few);
+  const std::vector<double> one_thread = [&] {
+    const gonio::reconstruction serial(posterior_estimator().prior(), posterior_estimator().model(),
+                                       gonio::thread_count(1));
+    return serial.keeping_all()
+        .fit_located(measured_at(gonio::random_cells(posterior_cells(), 5, 1), table))
+        .known_to(coarse);
+  }();
+  CHECK(with_few == one_thread);
+  for (const Eigen::Index cell : {0, 30, 70})
+    CHECK(with_few[cell] ==
+          doctest::Approx(few.known_to(gonio::locate(posterior_cells(), coarse.angles(cell)))).epsilon(1e-9));
   const auto at = gonio::locate_cell(posterior_cells(), 77);
   const gonio::rgb value(1e-5, 0.3, 2.0);
   const auto narrow = few.interval(value, at, confidence_level::sixty_eight_percent);

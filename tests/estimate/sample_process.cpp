@@ -106,8 +106,9 @@ TEST_CASE("other locations are predicted as the textbook does") {
   const Eigen::LLT<Eigen::MatrixXd> factors(process.covariance());
   CHECK((mean - with * factors.solve(process.values())).norm() < 1e-9);
   CHECK((covariance - (before - with * factors.solve(with.transpose()))).norm() < 1e-9);
+  const Eigen::VectorXd deviations = process.deviations(others);
   for (Eigen::Index i = 0; i < 3; ++i)
-    CHECK(process.deviation(others.rows.row(i), others.angles[i]) ==
+    CHECK(deviations[i] ==
           doctest::Approx(
               std::sqrt(covariance(i, i) + gonio::error_variance_at(process.expected().model, others.angles[i]))));
 }
@@ -143,13 +144,14 @@ TEST_CASE("doubts add to the process, and errors that neighbours share do not av
                               doubting = process.with_doubts();
   const auto& at = process.at().angles;
   const gonio::discrepancy_model& model = process.expected().model;
-  const auto variance_of_doubt = [&](const gonio::half_difference& angles) {
-    return model.doubt.variance * (1.0 + model.doubt.fresnel_weight * gonio::fresnel_rise(angles.theta_d));
+  const auto factor = [&](const gonio::half_difference& angles) {
+    return 1.0 + model.doubt.fresnel_weight * gonio::fresnel_rise(angles.theta_d);
   };
   Eigen::MatrixXd doubts = gonio::discrepancy_covariance(at, model.doubt.lengths);
   for (Eigen::Index i = 0; i < doubts.rows(); ++i)
     for (Eigen::Index j = 0; j < doubts.cols(); ++j)
-      doubts(i, j) *= std::sqrt(variance_of_doubt(at[i]) * variance_of_doubt(at[j]));
+      doubts(i, j) *= model.doubt.variance * std::sqrt(factor(at[i]) * factor(at[j]));
+  for (Eigen::Index i = 0; i < doubts.rows(); ++i) doubts(i, i) += model.error_variance * (factor(at[i]) - 1.0);
   const Eigen::MatrixXd expected = process.covariance() + doubts +
                                    model.doubt.shared_error_variance * gonio::discrepancy_covariance(at, model.lengths);
   CHECK((doubting.covariance() - expected).norm() < 1e-12 * expected.norm());
@@ -159,10 +161,12 @@ TEST_CASE("doubts add to the process, and errors that neighbours share do not av
   const gonio::half_difference here{0.4, 0.3, 1.0};
   const Eigen::RowVectorXd row = Eigen::RowVectorXd::LinSpaced(process.at().rows.cols(), -1.0, 1.0);
   const Eigen::MatrixXd with = doubting.expected().between(process.at(), {row, {here}});
-  const double before = row.squaredNorm() / process.expected().observations + model.variance + variance_of_doubt(here) +
-                        gonio::error_variance_at(model, here);
+  const double before = row.squaredNorm() / process.expected().observations + model.variance +
+                        model.doubt.variance * factor(here) + gonio::error_variance_at(model, here) +
+                        model.error_variance * (factor(here) - 1.0);
   const double variance = before - (with.transpose() * expected.llt().solve(with))(0, 0);
-  CHECK(doubting.deviation(row, here) == doctest::Approx(std::sqrt(variance)));
-  CHECK(doubting.deviation_before(row, here) == doctest::Approx(std::sqrt(before)));
-  CHECK(doubting.deviation(row, here) > process.deviation(row, here));
+  const gonio::located_rows other{row, {here}};
+  CHECK(doubting.deviations(other)[0] == doctest::Approx(std::sqrt(variance)));
+  CHECK(doubting.deviations_before(other)[0] == doctest::Approx(std::sqrt(before)));
+  CHECK(doubting.deviations(other)[0] > process.deviations(other)[0]);
 }

@@ -33,21 +33,20 @@ cli::json interval_counts::to_json() const {
   return {{"values", values_}, {"within_68", within_68_}, {"within_95", within_95_}};
 }
 
-void interval_counts::add(const reconstructed_type& known, const gonio::rgb& estimate, const gonio::rgb& truth,
-                          const gonio::location& at) {
+void interval_counts::add(const gonio::location& at, const gonio::rgb& truth, const gonio::reflectance_interval& of_68,
+                          const gonio::reflectance_interval& of_95) {
   const double theta_h = gonio::degrees(at.angles.theta_h);
   const auto region = 2 * (theta_h < 2.0    ? 0
                            : theta_h < 10.0 ? 1
                            : theta_h < 30.0 ? 2
                                             : 3) +
                       (gonio::degrees(at.angles.theta_d) < 45.0 ? 0 : 1);
-  const auto holds = [&](gonio::confidence_level level) {
-    const auto [low, high] = known.interval(estimate, at, level);
-    return static_cast<double>((truth >= low && truth <= high).count());
+  const auto holds = [&](const gonio::reflectance_interval& interval) {
+    return static_cast<double>((truth >= interval.low && truth <= interval.high).count());
   };
   values_[region] += 3.0;
-  within_68_[region] += holds(gonio::confidence_level::sixty_eight_percent);
-  within_95_[region] += holds(gonio::confidence_level::ninety_five_percent);
+  within_68_[region] += holds(of_68);
+  within_95_[region] += holds(of_95);
 }
 
 void interval_counts::add(const interval_counts& others) {
@@ -77,8 +76,16 @@ std::vector<Eigen::Index> judged_cells(const gonio::valid_cells& cells, double s
 interval_counts count_within(const interval_counts::reconstructed_type& known, const gonio::brdf_table& table,
                              const gonio::brdf_table& truth, double smallest_theta_h) {
   interval_counts counts;
-  for (const Eigen::Index cell : judged_cells(table.cells(), smallest_theta_h))
-    counts.add(known, table.at(cell), truth.at(cell).max(0.0), gonio::locate_cell(table.cells(), cell));
+  const std::vector<Eigen::Index> judged = judged_cells(table.cells(), smallest_theta_h);
+  std::vector<gonio::location> locations;
+  for (const Eigen::Index cell : judged) locations.push_back(gonio::locate_cell(table.cells(), cell));
+  const Eigen::VectorXd half_68 = known.half_widths(locations, gonio::confidence_level::sixty_eight_percent),
+                        half_95 = known.half_widths(locations, gonio::confidence_level::ninety_five_percent);
+  for (Eigen::Index i = 0; i < std::ssize(judged); ++i) {
+    const gonio::rgb estimate = table.at(judged[i]);
+    counts.add(locations[i], truth.at(judged[i]).max(0.0), known.interval(estimate, locations[i], half_68[i]),
+               known.interval(estimate, locations[i], half_95[i]));
+  }
   return counts;
 }
 

@@ -19,9 +19,9 @@ class interval_counts {
   explicit interval_counts(const cli::json& counts);
   [[nodiscard]] cli::json to_json() const;
 
-  /// Counts the three channels of a cell.
-  void add(const reconstructed_type& known, const gonio::rgb& estimate, const gonio::rgb& truth,
-           const gonio::location& at);
+  /// Counts the three channels of a cell, whose intervals of 68 and 95 % are given.
+  void add(const gonio::location& at, const gonio::rgb& truth, const gonio::reflectance_interval& of_68,
+           const gonio::reflectance_interval& of_95);
   void add(const interval_counts& others);
 
   /// Returns "68.0 | 95.1 (90.2)": percentages within the 68 and 95 % intervals, and the latter in the worst region.

@@ -200,7 +200,7 @@ void describe(const lens_cone& cone, const std::vector<measured_reflectance>& us
   const auto [least, most] = std::ranges::minmax(reflectances);
   std::cout << "lens: half angle " << fixed(gonio::degrees(cone.half_angle), 3)
             << " degrees (gonio reconstruct --receiver-half-angle), solid angle " << significant(cone.solid_angle)
-            << " sr; receives " << significant(least) << " to " << significant(most) << " of the light\n";
+            << " sr; it receives " << significant(least) << " to " << significant(most) << " of the light\n";
 }
 
 void write(const calibrate_command& options, const std::vector<measured_reflectance>& usable) {
@@ -222,14 +222,14 @@ void run(const calibrate_command& options) {
   const recorded_scan material = gonio::io::read_scan(options.material);
   const bool is_absolute = !options.lamp.empty();
   const method by = is_absolute ? absolute_method(options, material) : relative_method(options, material);
-  // Measure the reflectance of each pose, and print which poses are left out.
+  // Measure the reflectance of each pose, and print which poses cannot be used.
   std::vector<measured_reflectance> usable;
   for (std::size_t i = 0; i < material.poses.size(); ++i) {
     const auto found = by.measure(i);
     if (found.is_usable())
       usable.push_back(found);
     else
-      std::cout << "left out: pose " << i + 1 << ", " << in_degrees(material.poses[i]) << ": " << found.doubt << '\n';
+      std::cout << "not usable: pose " << i + 1 << ", " << in_degrees(material.poses[i]) << ": " << found.doubt << '\n';
   }
   if (usable.empty()) gonio::refuse(options.material.string() + ": no pose can be used");
   if (!is_absolute) require_reference(options, usable, by.known.reflectance);

@@ -196,9 +196,8 @@ void add_distance_option(command& to, double& distance) {
 }
 
 constexpr const char* towards_help =
-    "Direction from the sphere to the camera, AZIMUTH,ELEVATION[,ROLL] in degrees: azimuth from the map's right edge "
-    "to "
-    "the left, elevation upwards; roll turns the horizon of the image clockwise";
+    "Direction from the sphere to the camera, AZIMUTH,ELEVATION[,ROLL] in degrees: azimuth 0 is the map's right edge "
+    "and grows to the left, elevation grows upwards; roll turns the horizon of the image clockwise";
 
 }  // namespace
 
@@ -249,8 +248,8 @@ void add_lab_unwrap(command& lab) {
       .repeatable();
   command
       .add_option("--photographer", options->photographer,
-                  "Angle around the camera's direction that the photographer hides, in degrees; with several images "
-                  "it is filled from the others (default: 15 with several images)")
+                  "Angle around the camera's direction that the photographer hides, in degrees. With several images, "
+                  "light in this part comes from the other images (default: 15 with several images)")
       .check(check::range(0.0, 90.0));
   // Declare the map.
   command.add_option("--rows", options->unwrapping.rows, "Rows of the map, which has twice as many columns")

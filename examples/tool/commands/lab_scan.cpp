@@ -233,8 +233,8 @@ void add_lab_scan(command& lab) {
                     "With --adaptive: a scan of the white reference, at poses with about the same lights (.scan)");
   command
       .add_option("--until", options->choice.until,
-                  "With --adaptive: stop when half of all directions are known to this relative deviation (which never "
-                  "falls below 0.04)")
+                  "With --adaptive: stop when half of all directions are known to this relative deviation. Values "
+                  "below 0.04 are never reached")
       .check(check::range(0.001, 1.0))
       .capture_default_str();
   command.add_option("--most", options->choice.most, "With --adaptive: largest number of poses in total")

@@ -55,6 +55,8 @@ class pca {
 
   /// Returns the number of components k.
   [[nodiscard]] Eigen::Index size() const noexcept { return parts_->components.cols(); }
+  /// Returns the number of observations m that the components were learned from: the channels of all materials.
+  [[nodiscard]] double observations() const noexcept { return static_cast<double>(parts_->coefficients.rows()); }
   [[nodiscard]] const Domain& cells() const noexcept { return parts_->cells; }
   [[nodiscard]] const Metric& metric() const noexcept { return parts_->metric; }
 

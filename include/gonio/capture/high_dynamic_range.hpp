@@ -52,9 +52,9 @@ struct exposed {
 };
 
 /// Returns the mean radiance of several exposures, weighted by their inverse variances. Uses the variances at the
-/// counts that the mean predicts. Variances at the measured counts would favour counts that noise made darker, and
-/// would admit the darker half of a saturated count's distribution. Counts at which the response is extrapolated are
-/// used only if there are no others. Value and deviation are 0 if there is no exposure.
+/// counts that the mean predicts. With those at the measured counts, an exposure that noise made darker would count
+/// more, and so would a saturated pixel that noise kept below saturation. Counts at which the response is extrapolated
+/// are used only if there are no others. Value and deviation are 0 if there is no exposure.
 [[nodiscard]] measured_radiance mean_radiance(std::vector<exposed> all, const camera_response& response,
                                               const sensor_noise& noise, double saturation, double pixels);
 

@@ -72,10 +72,9 @@ class reference_light {
   return brdf * solid_angle * cosine_out;
 }
 
-/// Returns the weight of a value of known relative deviation d: s^2 / (s^2 + d^2), because variances of the logarithm
-/// add up. Here s (`unknown`) is the error of a basis for an unknown material. Noise of a few percent therefore hardly
-/// reduces a sample's weight. A nearly black channel keeps some weight even if its value is all noise. A weight of 1 /
-/// d^2 would leave that channel to the basis, which expects grey.
+/// Returns the weight of a value of known relative deviation d: s^2 / (s^2 + d^2), where s (`unknown`) is the relative
+/// error of a basis for an unknown material. Noise of a few percent hardly lowers the weight. With the weight 1 / d^2,
+/// a nearly black channel would have almost no weight, and the basis would make it grey.
 [[nodiscard]] inline double weight_of(double relative_deviation, double unknown = 1.0) noexcept {
   const double ratio = relative_deviation / unknown;
   return std::isfinite(relative_deviation) ? 1.0 / (1.0 + ratio * ratio) : 0.0;

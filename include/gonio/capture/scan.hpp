@@ -110,8 +110,8 @@ struct scan_options {
 /// The result of a scan.
 struct scan_outcome {
   Eigen::Index measured = 0, kept_before = 0;
-  std::vector<missing_pose> missing;  ///< poses left to the next scan with the same record
-  bool is_broken_off = false;         ///< too many poses failed in a row: not all were tried
+  std::vector<missing_pose> missing;  ///< poses that were tried and not measured
+  bool is_broken_off = false;         ///< too many poses failed in a row: the poses after the last were not tried
 
   [[nodiscard]] bool is_complete() const noexcept { return missing.empty() && !is_broken_off; }
 };
@@ -139,8 +139,9 @@ template <goniometer Machine>
 }  // namespace detail
 
 /// Measures the poses that a record does not have yet, in their order, and stores each reading before the machine moves
-/// on. Skips a pose that cannot be reached, or at which a device fails `attempts` times. Exceptions other than
-/// device_failure propagate; stored readings remain stored.
+/// on. Skips a pose that cannot be reached, or that fails `attempts` times, by a failure of a device or a faulty
+/// reading. Stops after `failures_in_a_row` such poses. Exceptions other than device_failure propagate; stored readings
+/// remain stored.
 template <goniometer Machine, scan_record Record>
 scan_outcome scan(Machine& machine, std::span<const direction_pair> poses, Record& record,
                   const scan_options& options = {}, const progress& listener = {}) {

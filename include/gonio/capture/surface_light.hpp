@@ -51,11 +51,12 @@ struct lit_point {
   double half_angle = 0.0;       ///< angular radius of the light, radians
 };
 
+/// Returns direction, distance and angular radius of the light, as seen from a position.
 [[nodiscard]] lit_point light_at(const surface_light& light, const Eigen::Vector3d& position);
 
 /// Returns the cones of light and receiver for a pixel or a block of pixels. The source's cone is the light's. The half
 /// vector turns relative to the normal by `across` from the left to the right edge of the pixel, and by `down` from top
-/// to bottom. The receiver's cone is chosen to give half vectors the same scatter.
+/// to bottom. The receiver's cone is the one over which half vectors scatter as much as over the pixel.
 [[nodiscard]] aperture pixel_aperture(const lit_point& lit, const Eigen::Vector3d& across, const Eigen::Vector3d& down);
 
 /// Throws gonio::error unless a distant light's direction has length 1, a lamp's position is finite, and the irradiance

@@ -68,7 +68,8 @@ struct tool_pose {
 struct angular_grid {
   double step = radians(7.5);
 
-  /// Throws gonio::error unless the step divides 90 degrees.
+  /// Returns the number of steps from the normal to the horizon. Throws gonio::error unless the step divides 90
+  /// degrees.
   [[nodiscard]] int steps_to_horizon() const;
 };
 

@@ -31,8 +31,8 @@ struct measurement_noise {
 
 struct conformity_options {
   measurement_noise part = {}, reference = {};
-  /// The largest difference of a conforming part, relative to the value (0.05 is 5 %): one number, or one for each
-  /// channel.
+  /// The largest difference of a conforming part, relative to the value (0.05 is 5 %), for a logarithmic metric: one
+  /// number, or one for each channel.
   std::vector<double> tolerance = {0.0};
   /// If set, the tolerance of directions whose half vector is within 5 degrees of the normal.
   std::optional<double> peak_tolerance = {};
@@ -246,7 +246,7 @@ template <error_metric Metric>
   constexpr Eigen::Index most_samples = 5000;
   if (samples.size() > most_samples)
     refuse({"noise can be estimated from repeats among at most ", most_samples, " samples, not ", samples.size(),
-            ": give the noise (--noise)"});
+            ": give the noise instead"});
   const Eigen::Index channels = detail::distinct_channels(samples.values);
   double squares = 0.0, freedom = 0.0;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {

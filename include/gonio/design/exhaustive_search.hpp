@@ -35,8 +35,8 @@ template <sweeping_objective Objective>
 
 }  // namespace detail
 
-/// Adds the best of all candidates to `plan` until the plan has n candidates. A plan begins with the shorter plans of
-/// the same search. Throws gonio::error unless n is from 1 to the number of candidates.
+/// Adds the best of all candidates to `plan` until the plan has n candidates. The first k candidates are the plan that
+/// the same search finds for k. Throws gonio::error unless n is from 1 to the number of allowed candidates.
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan grow_greedily(const Objective& objective, Eigen::Index n, capture_plan plan = {},
                                          const progress& listener = {}) {

@@ -21,7 +21,7 @@ template <error_metric Metric>
 [[nodiscard]] Eigen::VectorXd reading_variances(const apparatus& with, const pca<Metric>& prior,
                                                 std::span<const location> locations, thread_count threads = {}) {
   Eigen::VectorXd variances = map_noise(prior, locations, with.noise, threads).variance;
-  const auto observations = static_cast<double>(prior.coefficients().rows());
+  const double observations = prior.observations();
   for_each_index(
       variances.size(), 256,
       [&](Eigen::Index i) {

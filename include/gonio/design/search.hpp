@@ -188,7 +188,7 @@ template <capture_geometry Geometry, plan_objective Objective>
 
 /// Adds candidates one by one, each the best of `tries` random ones, and calls `descend` after each. One try is close
 /// to the search of Nielsen et al.; 500 tries are the search of Xu et al. Throws gonio::error unless n is from 1 to the
-/// number of candidates.
+/// number of allowed candidates.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan grow_and_descend(const Geometry& geometry, const Objective& objective, Eigen::Index n,
                                             Eigen::Index tries = 500, std::uint64_t seed = 0,
@@ -217,7 +217,7 @@ template <capture_geometry Geometry, plan_objective Objective>
 
 /// Starts with n random candidates. Then, `swaps` times, replaces a random member of the plan by a random new candidate
 /// if that improves the plan. This is the search of Matusik et al., the baseline. Throws gonio::error unless n is from
-/// 1 to the number of candidates.
+/// 1 to the number of allowed candidates.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan swap_at_random(const Geometry& geometry, const Objective& objective, Eigen::Index n,
                                           Eigen::Index swaps, std::uint64_t seed = 0) {

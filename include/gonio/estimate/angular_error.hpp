@@ -31,7 +31,7 @@ template <error_metric Metric>
 [[nodiscard]] double angular_error_penalty(const pca<Metric>& basis, const direction_pair& meant, double angle) {
   const location here = locate(basis.cells(), to_half_difference(meant.wi, meant.wo));
   const Eigen::RowVectorXd row = row_at(basis, here);
-  const double mean = offset_at(basis, here), m = static_cast<double>(basis.coefficients().rows());
+  const double mean = offset_at(basis, here), m = basis.observations();
   double sum = 0.0;
   for (const direction_pair& pair : detail::pairs_with_angular_error(meant, angle)) {
     const location there = locate(basis.cells(), to_half_difference(pair.wi, pair.wo));

@@ -18,13 +18,6 @@
 
 namespace gonio {
 
-/// The weights of a basis' functions, one column for each fitted channel (colour or wavelength).
-template <colour_basis Basis>
-struct solved_channels {
-  Basis functions;
-  solution found;
-};
-
 /// The least-squares systems of measurements in a basis. Row i of a system is the basis interpolated at measurement i.
 /// Its right-hand side is the mapped value minus the basis' offset at this measurement. The measurement's weight
 /// multiplies the squared error. Channels with the same basis and weights share one system, with a right-hand side for

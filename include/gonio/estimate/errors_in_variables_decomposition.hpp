@@ -95,7 +95,7 @@ class errors_in_variables_decomposition {
 
   [[nodiscard]] system average(const located_samples& measured) const {
     const Eigen::Index n = std::ssize(measured.locations), k = prior_.size();
-    const double m = observations();
+    const double m = prior_.observations();
     system means{row_matrix::Zero(n, k), Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, measured.values.cols()),
                  Eigen::VectorXd::Zero(n)};
     for_each_sample(measured, [&](Eigen::Index i, const location& meant, const displaced& seen) {
@@ -125,7 +125,7 @@ class errors_in_variables_decomposition {
           etas[i] += square(change.dot(weights.col(c)) + seen.offsets[number] - means.offsets[i]) /
                      static_cast<double>(channels);
       }
-      etas[i] *= observations() / static_cast<double>(seen.rows.size());
+      etas[i] *= prior_.observations() / static_cast<double>(seen.rows.size());
     });
     return etas;
   }
@@ -144,7 +144,6 @@ class errors_in_variables_decomposition {
     return concatenate_columns(found);
   }
 
-  [[nodiscard]] double observations() const { return static_cast<double>(prior_.coefficients().rows()); }
   /// Returns the angle of one of the equidistant points on a circle, in radians.
   [[nodiscard]] static double side(Eigen::Index quarter) noexcept {
     return 2.0 * std::numbers::pi * static_cast<double>(quarter) / static_cast<double>(sides);
@@ -165,11 +164,11 @@ static_assert(estimator<errors_in_variables_decomposition<log_relative>>);
 template <error_metric Metric>
 [[nodiscard]] sample_set weighted_by_angular_error(const sample_set& samples, const pca<Metric>& prior,
                                                    const discrepancy_model& model, double angle) {
-  const double observations = static_cast<double>(prior.coefficients().rows());
   sample_set weighted(samples.channels());
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
     const double error = error_variance_at(model, samples.directions(i).angles()),
-                 angular_variance = angular_error_penalty(prior, samples.directions(i).pair(), angle) / observations;
+                 angular_variance =
+                     angular_error_penalty(prior, samples.directions(i).pair(), angle) / prior.observations();
     weighted.add(samples.directions(i), samples.values(i),
                  rgb(samples.weight(i).of_each() * error / (error + angular_variance)), samples.aperture(i));
   }

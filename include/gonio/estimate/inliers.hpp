@@ -56,9 +56,9 @@ struct inliers {
   [[nodiscard]] std::vector<Eigen::Index> kept() const;
 };
 
-/// Returns the weight, in a fit, of a sample that is wrong with probability p: 1 / (1 + 10 p / (1 - p)). A weight of
-/// 1 - p would move the estimate by more than 1 - p of the way to the sample, because the error variance of a right
-/// sample is about a tenth of the variance that the other samples leave.
+/// Returns the weight in a fit of a sample that is wrong with probability p: 1 / (1 + 10 p / (1 - p)). The factor is 10
+/// because the variance that the other samples leave is about ten times the error variance of a right sample. With a
+/// weight of 1 - p, the sample would still determine most of the estimate.
 [[nodiscard]] inline double inlier_weight(double probability_wrong) noexcept {
   const double right = 1.0 - probability_wrong;
   return right / (right + 10.0 * probability_wrong);
@@ -123,7 +123,7 @@ template <error_metric Metric>
 
 }  // namespace detail
 
-/// Finds the inliers among samples in colours. `mapped` are the samples in the prior's domain (`map_samples`),
+/// Finds the inliers among samples in three channels. `mapped` are the samples in the prior's domain (`map_samples`),
 /// `error_variances` the variances of their errors. `all`, if given, is the process of all samples; it saves time if
 /// there are at most `most_judged` samples. Costs `judge_samples` for j samples plus O(n j (j + k) + j m k), for n
 /// samples, j of them judged together, k components and m observations of the prior.

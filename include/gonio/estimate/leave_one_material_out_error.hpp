@@ -80,7 +80,7 @@ class leave_one_material_out_error {
   [[nodiscard]] static sums add_rows(const pca<Metric>& basis, std::span<const location> locations,
                                      const Eigen::VectorXd& weights, const mapped_noise& mapped, thread_count threads) {
     const Eigen::Index k = basis.size();
-    const auto observations = static_cast<double>(basis.coefficients().rows());
+    const double observations = basis.observations();
     const double missing = (1.0 / basis.explained_variance() - 1.0) / observations;
     return sum_over_blocks(
         locations.size(), 256, sums(k),

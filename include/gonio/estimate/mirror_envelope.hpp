@@ -2,8 +2,9 @@
 /// Removes dips of an estimate in the mirror direction (theta_h = 0). No measured material has such a dip: for each of
 /// twenty materials and each theta_d up to 65 degrees, the luminance at theta_h = 0 is at least .956 of the largest
 /// luminance at theta_h below 8 degrees. In half of the estimates from 20 random samples, this ratio was less than .9,
-/// down to .44. The components cause the dips: in materials, the logarithm of the luminance at theta_h = 0 relative to
-/// its surroundings is from 0 to 8, but a Gaussian prior is symmetric. docs/decisions/0038.
+/// down to .44. The components cause the dips. In materials, the logarithm of the luminance at theta_h = 0 relative to
+/// its surroundings is from 0 to 8, never negative. A Gaussian prior is symmetric and also allows negative values.
+/// docs/decisions/0038-no-dips-in-the-mirror-direction.md.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/table/brdf_table.hpp>

@@ -20,6 +20,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,13 +39,14 @@ enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 /// deviations, for measured materials whose families are not in the prior, and samples in all directions, below some
 /// theta_h, in planes, or in images. The interval holds for such materials, averaged over directions. `unknown` is the
 /// variance after measuring divided by the variance before. It changes only the 68 % factor, because errors near
-/// samples have heavier tails than errors far from all samples. The number of samples does not matter: from thousands
-/// of samples all over the hemisphere intervals are too wide, from thousands in an image they are still too narrow.
+/// samples have heavier tails than errors far from all samples. The factor does not depend on the number of samples. So
+/// intervals are too wide after thousands of samples all over the hemisphere, and too narrow after thousands in images.
 [[nodiscard]] double deviations_of(confidence_level level, double unknown) noexcept;
 
 /// The uncertainty of a reconstruction in a few numbers.
 struct certainty {
-  /// Half the width of the 68 % interval relative to the value: the median over all directions.
+  /// Half the width of the 68 % interval relative to the value, for a logarithmic metric: the median over all
+  /// directions.
   double known_to = 0.0;
   /// The median of `known_to` over the directions whose light or viewer is more than 80 degrees from the normal.
   double known_to_at_grazing = 0.0;
@@ -62,7 +64,7 @@ struct sample_residual {
   Eigen::Index number = 0;          ///< its position among the given samples
   rgb measured;                     ///< sr^-1
   rgb predicted;                    ///< sr^-1, from all other samples
-  double relative_deviation = 0.0;  ///< combined standard deviation of prediction and sample
+  double relative_deviation = 0.0;  ///< combined deviation of prediction and sample, for a logarithmic metric
   double disagreement = 0.0;        ///< `sample_predictions::disagreement`
   bool rejected = false;
 };
@@ -118,6 +120,10 @@ class reconstructed {
     return filled<rgb>(
         located(wi, wo), [&](const location& at) { return fit_.at(at); }, luminance);
   }
+  /// Returns the location of two directions on the prior's cells.
+  [[nodiscard]] location located(const direction& wi, const direction& wo) const {
+    return locate(prior_.cells(), to_half_difference(wi, wo));
+  }
   /// Returns the reflectance in each channel of the samples.
   [[nodiscard]] Eigen::ArrayXd values(const direction& wi, const direction& wo) const {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return fit_.values(wi, wo);
@@ -159,36 +165,48 @@ class reconstructed {
   /// Returns the standard deviation of a value in the metric's domain. If the metric is a logarithm, the deviation is
   /// relative to the value. O(n (n + k)) for n samples, at most `most_known`, and k components.
   [[nodiscard]] double deviation(const location& at) const {
-    return std::sqrt(scale_) * doubting_.deviation(row_at(prior_, at), at.angles);
+    return std::sqrt(scale_) * doubting_.deviations(locate_rows(prior_, {&at, 1}))[0];
   }
   /// Returns the deviation for two directions above the horizon.
   [[nodiscard]] double deviation(const direction& wi, const direction& wo) const { return deviation(located(wi, wo)); }
 
   /// Returns half the width of an interval in the metric's domain.
   [[nodiscard]] double half_width(const location& at, confidence_level level) const {
-    const Eigen::RowVectorXd row = row_at(prior_, at);
-    const double after = doubting_.deviation(row, at.angles),
-                 unknown = after / doubting_.deviation_before(row, at.angles);
-    return deviations_of(level, unknown * unknown) * std::sqrt(scale_) * after;
+    return half_widths({&at, 1}, level)[0];
+  }
+  /// Returns half the widths of the intervals at p locations. O(p n (n + k)), in a fifth of the time of p single
+  /// calls.
+  [[nodiscard]] Eigen::VectorXd half_widths(std::span<const location> locations, confidence_level level) const {
+    const located_rows others = locate_rows(prior_, locations);
+    const Eigen::VectorXd before = doubting_.deviations_before(others);
+    Eigen::VectorXd after = doubting_.deviations(others);
+    for (Eigen::Index i = 0; i < after.size(); ++i) {
+      const double unknown = after[i] / before[i];
+      after[i] *= deviations_of(level, unknown * unknown) * std::sqrt(scale_);
+    }
+    return after;
   }
 
   /// Returns the interval around a value at a location, for each channel separately; never below zero.
   [[nodiscard]] reflectance_interval interval(const rgb& value, const location& at, confidence_level level) const {
-    const double half = half_width(at, level);
+    return interval(value, at, half_width(at, level));
+  }
+  /// Returns the same for one of the `half_widths`.
+  [[nodiscard]] reflectance_interval interval(const rgb& value, const location& at, double half_width) const {
     const auto moved = [&](double by) {
       rgb other;
       for (Eigen::Index c = 0; c < 3; ++c)
         other[c] = reflectance_of(prior_.metric(), prior_.metric().forward(value[c], at) + by, at);
       return other;
     };
-    return {moved(-half), moved(half)};
+    return {moved(-half_width), moved(half_width)};
   }
   /// Returns the interval around the value for two directions above the horizon.
   [[nodiscard]] reflectance_interval interval(const direction& wi, const direction& wo, confidence_level level) const {
     return interval((*this)(wi, wo), located(wi, wo), level);
   }
 
-  /// Returns half the width of the 68 % interval, relative to the value.
+  /// Returns half the width of the 68 % interval relative to the value, if the metric is a logarithm.
   [[nodiscard]] double known_to(const location& at) const {
     return std::expm1(half_width(at, confidence_level::sixty_eight_percent));
   }
@@ -196,20 +214,21 @@ class reconstructed {
   [[nodiscard]] double known_to(const direction& wi, const direction& wo) const { return known_to(located(wi, wo)); }
   /// Returns `known_to` for all given cells. A coarse grid is enough, because the uncertainty is smooth.
   [[nodiscard]] std::vector<double> known_to(const valid_cells& cells) const {
-    std::vector<double> all = half_widths(cells);
+    std::vector<double> all = half_widths_at_cells(cells);
     for (double& each : all) each = std::expm1(each);
     return all;
   }
 
   /// Returns the uncertainty in a few numbers. Computes 1,440 intervals.
   [[nodiscard]] gonio::certainty certainty() const {
-    std::vector<double> highlight;
-    for (const half_difference& angles : detail::highlight_angles())
-      highlight.push_back(half_width(locate(prior_.cells(), angles), confidence_level::ninety_five_percent));
+    std::vector<location> lobe;
+    for (const half_difference& angles : detail::highlight_angles()) lobe.push_back(locate(prior_.cells(), angles));
+    const Eigen::VectorXd highlight = half_widths(lobe, confidence_level::ninety_five_percent);
     double measured_to = 0.0;
     for (const Eigen::Index i : found_.kept())
       measured_to = std::max(measured_to, samples_->locations[i].angles.theta_h);
-    return detail::certainty_of(half_widths(detail::certainty_cells()), std::move(highlight), measured_to);
+    return detail::certainty_of(half_widths_at_cells(detail::certainty_cells()),
+                                {highlight.data(), highlight.data() + highlight.size()}, measured_to);
   }
 
   /// Returns how well the materials of the prior explain the samples.
@@ -260,18 +279,19 @@ class reconstructed {
 
  private:
   /// Returns half the widths of the 68 % intervals at some cells.
-  [[nodiscard]] std::vector<double> half_widths(const valid_cells& cells) const {
+  [[nodiscard]] std::vector<double> half_widths_at_cells(const valid_cells& cells) const {
     std::vector<double> all(cells.size());
-    for_each_index(
+    for_each_block(
         cells.size(), 64,
-        [&](Eigen::Index cell) {
-          all[cell] = half_width(locate(prior_.cells(), cells.angles(cell)), confidence_level::sixty_eight_percent);
+        [&](block range) {
+          std::vector<location> some;
+          for (Eigen::Index cell = range.begin; cell < range.end; ++cell)
+            some.push_back(locate(prior_.cells(), cells.angles(cell)));
+          const Eigen::VectorXd widths = half_widths(some, confidence_level::sixty_eight_percent);
+          std::copy_n(widths.data(), widths.size(), all.data() + range.begin);
         },
         threads_);
     return all;
-  }
-  [[nodiscard]] location located(const direction& wi, const direction& wo) const {
-    return locate(prior_.cells(), to_half_difference(wi, wo));
   }
   /// Returns a value of the fit. If it is in a dip at the mirror direction, raises it by the values at the prior's rows
   /// of larger theta_h.

@@ -140,7 +140,7 @@ class reconstruction {
 
 template <error_metric Metric>
 reconstruction<Metric>::reconstruction(pca<Metric> prior, const discrepancy_model& model, thread_count threads)
-    : prior_(std::move(prior)), expected_{static_cast<double>(prior_.coefficients().rows()), model}, threads_(threads) {
+    : prior_(std::move(prior)), expected_{prior_.observations(), model}, threads_(threads) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (!positive(model.error_variance))
     refuse({"the error variance of a discrepancy must be positive and finite, not ", model.error_variance});
@@ -257,7 +257,8 @@ typename reconstruction<Metric>::result_type reconstruction<Metric>::fit_reading
   const std::vector<Eigen::Index> numbers = counting_positions(samples);
   const located_samples read = locate_samples(cells(), samples, threads_);
   result_type paint = fit_located(read, numbers);
-  constexpr int rounds = 3;  // two rounds lose part of a peak, six make it too bright (docs/decisions/0039)
+  // Two rounds lose part of a peak, six make it too bright: docs/decisions/0039-readings-through-apertures.md.
+  constexpr int rounds = 3;
   for (int round = 0; round < rounds && samples.have_apertures(); ++round) {
     const Eigen::MatrixXd factors = aperture_factors(samples, numbers, paint.fit());
     located_samples narrowed = read;

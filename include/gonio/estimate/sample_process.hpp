@@ -20,15 +20,15 @@
 namespace gonio {
 
 /// Additional covariance for the uncertainty of a reconstruction. With it, the intervals contain the truth as often as
-/// stated. This covariance would hardly improve the mean. Chosen on measured materials whose families were left out of
-/// the prior, from samples over all directions, below a theta_h, in planes and in images:
+/// stated. The mean does not use it, because it would hardly improve the mean. Chosen on measured materials whose
+/// families were left out of the prior, from samples over all directions, below a theta_h, in planes and in images:
 /// docs/decisions/0037-certainty-of-scans.md.
 struct doubt_model {
   /// Variance of a material's deviation from its process, `variance` (1 + `fresnel_weight` fresnel_rise(theta_d)). Only
   /// nearby samples determine this deviation. It grows and changes faster towards grazing theta_d, as Fresnel's
-  /// reflectance does.
+  /// reflectance does. The model's error variance grows by the same factor.
   double variance = 0.7, fresnel_weight = 3.0;
-  correlation_lengths lengths{.theta_h = 0.15, .theta_d = 0.55, .azimuth = 1.1, .fresnel_weight = 1.0};
+  correlation_lengths lengths{.theta_h = 0.13, .theta_d = 0.35, .azimuth = 1.1, .fresnel_weight = 1.0};
   /// Variance of errors that neighbouring samples share, with the correlation lengths of the discrepancy. Because of
   /// these errors, many close samples reduce the uncertainty hardly more than a few.
   double shared_error_variance = 0.005;
@@ -69,6 +69,7 @@ struct located_rows {
   [[nodiscard]] Eigen::Index size() const noexcept { return rows.rows(); }
 };
 
+/// Returns the functions of a prior at some locations. O(n k).
 template <basis Basis>
 [[nodiscard]] located_rows locate_rows(const Basis& prior, std::span<const location> locations) {
   located_rows found{rows_at(prior, locations), {}};
@@ -172,11 +173,11 @@ class sample_process {
   /// (known_before + tr K^-1 S). If many smooth samples show that their errors are small, `scale()` falls, but
   /// this scale does not: small errors say nothing about locations far from the samples. O(n^3).
   [[nodiscard]] double scale_of_material() const;
-  /// Returns the standard deviation of the mapped value at one location, including the error of a measurement, for a
-  /// scale of 1. `row` has the prior's k components at the location. Eq. 2.26. O(n (n + k)).
-  [[nodiscard]] double deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const;
-  /// Returns the same as `deviation`, but before any measurement. O(k).
-  [[nodiscard]] double deviation_before(const Eigen::RowVectorXd& row, const half_difference& angles) const;
+  /// Returns the standard deviations of the mapped values at p other locations, including the error of a measurement,
+  /// for a scale of 1. Eq. 2.26. O(p n (n + k)).
+  [[nodiscard]] Eigen::VectorXd deviations(const located_rows& others) const;
+  /// Returns the same as `deviations`, but before any measurement. O(p k).
+  [[nodiscard]] Eigen::VectorXd deviations_before(const located_rows& others) const;
   /// Predicts the values at p other locations, given their covariance before any measurement: Eq. 2.25 and 2.26,
   /// without errors of measurements and without the scale. O(n^3 + p^2 n).
   [[nodiscard]] process_prediction predict(const located_rows& others, Eigen::MatrixXd covariance_before) const;

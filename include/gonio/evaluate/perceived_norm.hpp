@@ -85,7 +85,7 @@ template <error_metric Metric>
       threads);
   Eigen::MatrixXd norm = Eigen::MatrixXd::Zero(k, k);
   for (const Eigen::MatrixXd& sum : sums) norm += sum;
-  return norm / (static_cast<double>(points) * static_cast<double>(basis.coefficients().rows()));
+  return norm / (static_cast<double>(points) * basis.observations());
 }
 
 /// Returns the mean of M for two spheres: under two directional lights, and under the closed-form environment

@@ -33,14 +33,14 @@ struct scaled_material {
 /// For each colour channel, finds the material and its factor under which the measurements are most likely a mixture of
 /// inliers and outliers (estimate/outlier_mixture.hpp). The search has two stages: 1,500 random samples select twenty
 /// materials, and 20,000 samples select one of the twenty. A few samples exclude most materials, but distinguishing
-/// similar materials takes thousands if four of five samples are outliers. The cost is O(materials) for any number of
-/// samples.
+/// similar materials takes thousands if four of five samples are outliers. O(materials + n) for n samples.
 template <error_metric Metric>
 class nearest_material {
  public:
   explicit nearest_material(measured<Metric> materials, std::uint64_t seed = 0, thread_count threads = {})
       : materials_(std::move(materials)), seed_(seed), threads_(threads) {}
 
+  /// Returns the nearest material of each channel, given samples in three channels.
   [[nodiscard]] std::array<scaled_material, 3> choose(const located_samples& samples) const {
     const located_samples few = samples.subset(random_choice(samples.size(), 1'500, seed_));
     const located_samples many = samples.subset(random_choice(samples.size(), 20'000, seed_));

@@ -59,10 +59,10 @@ struct robust_start {
   Eigen::Index samples = 20'000;
   /// The largest number of samples for the final iteration; more do not improve the estimate of a hundred unknowns.
   Eigen::Index most_samples = 50'000;
-  int combinations = 5;
-  int corrections = 4;
-  /// The nearest material's values over all cells are fitted together with the samples, with this total weight, in
-  /// samples. These values determine the result where nothing was measured. Otherwise, without samples in the
+  int combinations = 5;  ///< fits of the combination of materials
+  int corrections = 4;   ///< steps of correction after these fits
+  /// The nearest material's values over all cells are fitted together with the samples. Together they weigh as much as
+  /// this number of samples. They determine the result where nothing was measured. Otherwise, without samples in the
   /// highlight, a combination that fits all samples may have any highlight.
   double expectation = 1.0;
   /// Rounds of the final iteration that use the inlier weights of the start.

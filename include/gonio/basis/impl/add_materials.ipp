@@ -100,7 +100,7 @@ GONIO_INLINE streamed_pca add_materials(const log_relative_pca& prior, material_
                                         const streaming_options& options, const progress& listener) {
   const auto new_count = static_cast<double>(materials.columns());
   const detail::appended_columns all{prior, mapped_materials(std::move(materials), prior.metric()),
-                                     static_cast<double>(prior.coefficients().rows()), new_count};
+                                     prior.observations(), new_count};
   all.require_same_channels();
   std::vector<std::string> names = all.names();
   detail::streamed_components found =

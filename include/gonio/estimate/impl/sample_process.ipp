@@ -82,8 +82,15 @@ GONIO_INLINE double error_variance_at(const discrepancy_model& model, const half
 
 namespace detail {
 
-[[nodiscard]] inline double variance_of_doubt(const doubt_model& doubt, const half_difference& angles) noexcept {
-  return doubt.variance * (1.0 + doubt.fresnel_weight * fresnel_rise(angles.theta_d));
+/// Returns the factor by which the variances of doubts grow towards grazing theta_d.
+[[nodiscard]] inline double fresnel_factor(const doubt_model& doubt, const half_difference& angles) noexcept {
+  return 1.0 + doubt.fresnel_weight * fresnel_rise(angles.theta_d);
+}
+
+/// Returns how much larger the variance of a sample's error is with doubts than without.
+[[nodiscard]] inline double doubted_error_variance(const discrepancy_model& model,
+                                                   const half_difference& angles) noexcept {
+  return model.error_variance * (fresnel_factor(model.doubt, angles) - 1.0);
 }
 
 /// Adds the covariance of the doubts between some angles (rows) and others (columns).
@@ -91,9 +98,10 @@ GONIO_INLINE void add_doubts(const doubt_model& doubt, std::span<const half_diff
                              std::span<const half_difference> others, Eigen::MatrixXd& sum) {
   const Eigen::MatrixXd correlation = discrepancy_covariance(some, others, doubt.lengths);
   std::vector<double> deviations;
-  for (const half_difference& each : some) deviations.push_back(std::sqrt(variance_of_doubt(doubt, each)));
+  for (const half_difference& each : some)
+    deviations.push_back(std::sqrt(doubt.variance * fresnel_factor(doubt, each)));
   for (Eigen::Index j = 0; j < sum.cols(); ++j) {
-    const double deviation = std::sqrt(variance_of_doubt(doubt, others[j]));
+    const double deviation = std::sqrt(doubt.variance * fresnel_factor(doubt, others[j]));
     for (Eigen::Index i = 0; i < sum.rows(); ++i) sum(i, j) += deviations[i] * deviation * correlation(i, j);
   }
 }
@@ -170,8 +178,9 @@ GONIO_INLINE sample_process sample_process::with_doubts() const {
   Eigen::MatrixXd among = doubting.among(at());
   add_scaled(doubting.model.doubt.shared_error_variance, discrepancy_covariance(at().angles, doubting.model.lengths),
              among);
-  return {std::make_shared<const stored>(doubting, at(), shared_->sample_weights, shared_->error_variances,
-                                         std::move(among)),
+  Eigen::VectorXd errors = shared_->error_variances;
+  for (Eigen::Index i = 0; i < size(); ++i) errors[i] += detail::doubted_error_variance(doubting.model, at().angles[i]);
+  return {std::make_shared<const stored>(doubting, at(), shared_->sample_weights, std::move(errors), std::move(among)),
           values_};
 }
 
@@ -279,19 +288,28 @@ GONIO_INLINE double sample_process::scale_of_material() const {
   return (known_before + squares / static_cast<double>(channels())) / (known_before + known);
 }
 
-GONIO_INLINE double sample_process::deviation(const Eigen::RowVectorXd& row, const half_difference& angles) const {
-  Eigen::MatrixXd with = expected().between(at(), {row, {angles}});
-  const double before = deviation_before(row, angles);
-  factors().solve_lower_in_place(with.data());
-  return std::sqrt(std::max(before * before - dot(with.data(), with.data(), with.size()), 0.0));
+GONIO_INLINE Eigen::VectorXd sample_process::deviations(const located_rows& others) const {
+  const Eigen::MatrixXd half = factors().solve_lower(expected().between(at(), others));
+  Eigen::VectorXd all = deviations_before(others);
+  for (Eigen::Index i = 0; i < all.size(); ++i)
+    all[i] = std::sqrt(std::max(all[i] * all[i] - detail::squared_norm(half.col(i)), 0.0));
+  return all;
 }
 
-GONIO_INLINE double sample_process::deviation_before(const Eigen::RowVectorXd& row,
-                                                     const half_difference& angles) const {
+GONIO_INLINE Eigen::VectorXd sample_process::deviations_before(const located_rows& others) const {
   const discrepancy_model& model = expected().model;
-  return std::sqrt(dot(row.data(), row.data(), row.size()) / expected().observations + model.variance +
-                   (expected().doubts ? detail::variance_of_doubt(model.doubt, angles) : 0.0) +
-                   error_variance_at(model, angles));
+  Eigen::VectorXd all(others.size());
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    const half_difference& angles = others.angles[i];
+    double variance = model.variance + error_variance_at(model, angles);
+    for (Eigen::Index j = 0; j < others.rows.cols(); ++j)
+      variance += others.rows(i, j) * others.rows(i, j) / expected().observations;
+    if (expected().doubts)
+      variance += model.doubt.variance * detail::fresnel_factor(model.doubt, angles) +
+                  detail::doubted_error_variance(model, angles);
+    all[i] = std::sqrt(variance);
+  }
+  return all;
 }
 
 GONIO_INLINE process_prediction sample_process::predict(const located_rows& others,

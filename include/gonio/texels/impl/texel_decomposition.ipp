@@ -48,7 +48,7 @@ GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& pr
   }
   // If the covariance consists of components and errors of the variance eta / m alone, K is m times the covariance of
   // the images.
-  const auto observations = static_cast<double>(prior.coefficients().rows());
+  const double observations = prior.observations();
   const expected_covariance expected{observations, {.variance = 0.0, .error_variance = penalty.eta() / observations}};
   const located_samples nothing{locations, Eigen::MatrixXd(n, 0), Eigen::MatrixXd::Ones(n, 1)};
   const sample_process process(expected, locate_rows(prior, locations), nothing,
