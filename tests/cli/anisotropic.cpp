@@ -123,6 +123,11 @@ TEST_CASE("an anisotropic model is fitted to samples with azimuths, written for 
   refuses(fit + " -o " + files.path("fit.binary"), {"fit.binary: cannot hold the anisotropic", ".bsdf"});
   refuses(fit + " --pbrt " + files.path("fit.pbrt"), {"ggx or torrance-sparrow, not ggx-anisotropic"});
   refuses("fit --model ward-anisotropic " + files.path("t.binary"), {"t.binary", "needs samples with azimuths"});
+  scratch::put(files.here / "plane.csv",
+               "# quantity: brdf\n# theta-o-sign: "
+               "light\ntheta_i,theta_o,value\n45,-45,2\n45,-30,.3\n30,-10,.4\n45,0,.1\n45,60,.1\n");
+  refuses("fit --model ggx-anisotropic " + files.path("plane.csv"),
+          {"plane.csv", "all half vectors have the same azimuth", "several azimuths"});
 }
 
 TEST_CASE("a table of Zemax with rotations is written, described without suspicion, drawn and converted back") {

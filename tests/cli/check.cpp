@@ -125,6 +125,8 @@ TEST_CASE("gonio check: a verdict has at most five lines, and many parts are a t
   const std::size_t first = warned.output.find("gap.csv: 1 of 7 rows is left out");
   CHECK(first != std::string::npos);
   CHECK(warned.output.find("gap.csv", first + 1) == std::string::npos);
+  scratch::put(files.folder / "one.csv", "# quantity: brdf\ntheta_h,theta_d,phi_d,value\n10,20,30,.1\n");
+  check_says((files.folder / "one.csv").string() + reference, 2, {"one.csv: has 1 channel", "good.csv has 3"});
   check_says(same + " " + brighter + reference + " --report " + (files.folder / "p.html").string(), 2,
              {"--report needs one part, not 2"});
 }

@@ -90,8 +90,9 @@ TEST_CASE("lab: the cone of the lens, and the light that it receives") {
   const std::string told =
       run("lab calibrate " + room.at("white.scan") + lens + "25,4,350 -o " + room.at("samples.csv"));
   // The half angle is that of 3.125 mm at 350 mm. White reflects 0.99 Omega cos(theta_o) / pi.
-  CHECK(told.find("lens: half angle 0.512 degrees (gonio reconstruct --receiver-half-angle), solid angle 0.00025 sr; "
-                  "receives ") != std::string::npos);
+  CHECK(
+      told.find("lens: half angle 0.512 degrees (gonio reconstruct --receiver-half-angle), solid angle 0.00025 sr; it "
+                "receives ") != std::string::npos);
   const auto numbers = told.substr(told.find("receives ") + 9);
   const double most = std::stod(numbers.substr(numbers.find(" to ") + 4));
   CHECK(most < 0.99 * 0.0002505 / std::numbers::pi);

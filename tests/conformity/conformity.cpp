@@ -286,6 +286,46 @@ TEST_CASE("what is shared is compared as if nothing else were there") {
   CHECK(together.directions[13].deviation[0] > 3.0 * together.directions[4].deviation[0]);
 }
 
+TEST_CASE("the mirror direction is the same, whatever its phi_d") {
+  const auto samples = [](double theta_h, double phi_d, double value) {
+    gonio::sample_set all;
+    for (const double theta_d : {0.3, 0.8})
+      all.push_back({gonio::half_difference{theta_h, theta_d, phi_d}, gonio::rgb::Constant(value), 1.0});
+    return gonio::locate_samples(conformity_cells(), all);
+  };
+  const auto reference = samples(0.0, 0.0, 2.0);
+  for (const double theta_h : {0.0, 1e-6})
+    for (const double phi_d : {0.0, 0.5, 1.57, 3.1}) {
+      CAPTURE(phi_d);
+      const auto found =
+          gonio::check_conformity(conformity_estimator(), samples(theta_h, phi_d, 3.0), reference, noise_of(0.02));
+      CHECK(found.predicted() == 0);
+      CHECK_FALSE(found.conforms(0.001));
+    }
+}
+
+TEST_CASE("a reference that contradicts itself after a swap conforms to itself, a part unlike both does not") {
+  // An instrument reads other values after light and viewer are swapped.
+  const auto read = [](std::initializer_list<double> values) {
+    const gonio::direction one = gonio::spherical_direction(0.35, 0.0), other = gonio::spherical_direction(1.05, 2.0);
+    gonio::sample_set all;
+    for (const double value : values) {
+      const bool is_swapped = all.size() == 1;
+      all.push_back({is_swapped ? gonio::direction_pair{other, one} : gonio::direction_pair{one, other},
+                     gonio::rgb::Constant(value), 1.0});
+    }
+    return gonio::locate_samples(conformity_cells(), all);
+  };
+  const auto p_value = [&](const gonio::located_samples& part, const gonio::located_samples& reference) {
+    return gonio::check_conformity(conformity_estimator(), part, reference, noise_of(0.02)).p_value;
+  };
+  const auto reference = read({0.10, 0.14});
+  CHECK(p_value(reference, reference) > 0.01);
+  CHECK(p_value(read({0.10}), reference) > 0.01);
+  CHECK(p_value(read({0.60}), reference) < 1e-3);
+  CHECK(p_value(read({0.10}), read({0.14})) < 1e-3);
+}
+
 TEST_CASE("repeats of the reference make it surer, and their order does not matter") {
   const auto part = noisy(checked_material(), {77}, 0.02, 2);
   const auto once = noisy(checked_material(), {77, 300}, 0.02, 1),

@@ -106,7 +106,9 @@ TEST_CASE("the mean of the process is the ridge regression of components joined 
     gonio::located_samples weighed = gonio::locate_samples(discrepancy_cells(), samples);
     const auto noise = gonio::map_noise(discrepancy_prior(), weighed.locations, model.noise);
     weighed.weights.array().colwise() *= model.error_variance / (model.error_variance + noise.variance.array());
-    const gonio::discrepancy_functions smooth(weighed.angles(), 24 * model.variance);
+    std::vector<gonio::half_difference> centres;
+    for (const gonio::location& at : weighed.locations) centres.push_back(at.angles);
+    const gonio::discrepancy_functions smooth(centres, 24 * model.variance);
     const gonio::joined basis{discrepancy_prior(),
                               gonio::discrepancy{discrepancy_cells(), discrepancy_prior().metric(), smooth}};
     const auto ridge = gonio::basis_equations(basis, weighed).solve(gonio::tikhonov(24 * model.error_variance));

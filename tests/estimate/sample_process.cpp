@@ -139,6 +139,25 @@ TEST_CASE("an error is larger where light or viewer graze") {
         doctest::Approx(0.01 + 0.2 / std::exp(1.0)));
 }
 
+TEST_CASE("crowds at one theta_d count as the effective number, samples of all theta_d count in full") {
+  const gonio::discrepancy_model model{.effective_samples = 100.0};
+  // A crowd of 400 samples within a degree at 60 degrees, and 600 samples of all theta_d.
+  const auto theta_d = [](Eigen::Index i) {
+    return i < 400 ? 60.0 + static_cast<double>(i) / 400.0 : 90.0 * static_cast<double>(i - 400) / 600.0;
+  };
+  std::vector<gonio::location> locations(1000);
+  for (std::size_t i = 0; i < locations.size(); ++i) locations[i].angles = {0.1, gonio::radians(theta_d(i)), 1.0};
+  const Eigen::VectorXd variances = gonio::crowding_variances(model, locations);
+  for (Eigen::Index i = 0; i < variances.size(); ++i) {
+    const double one = gonio::error_variance_at(model, locations[i].angles);
+    CAPTURE(i);
+    if (i < 400)  // 400, and 20 of the others; twice 1000 / 30 are usual
+      CHECK(variances[i] / one == doctest::Approx((420.0 - 66.7) / 100.0 - 1.0).epsilon(0.01));
+    else if (std::abs(theta_d(i) - 60.0) > 3.0)
+      CHECK(variances[i] == 0.0);
+  }
+}
+
 TEST_CASE("doubts add to the process, and errors that neighbours share do not average out") {
   const gonio::sample_process process = some_process(7, 0.2, Eigen::MatrixXd::Ones(7, 1)),
                               doubting = process.with_doubts();

@@ -121,6 +121,19 @@ TEST_CASE("an angle stated above the header line applies to all samples") {
     CHECK(std::ranges::find(said, "arm.csv: theta_i is taken to be 30 degrees, as stated above the header line") !=
           said.end());
   }
+  // Blocks of one angle of incidence each.
+  notes of_blocks;
+  const auto blocks = read_noted(
+      percent + "# theta_i: 45\ntheta_o;value\n0;1\n-45;9\n# theta_i: 30\n0;1\n-30;8\n# operator: me\n-20;1\n",
+      of_blocks);
+  REQUIRE(blocks.size() == 5);
+  CHECK(signed_angles(blocks[1]) == angles{45.0, -45.0});
+  CHECK(signed_angles(blocks[3]) == angles{30.0, -30.0});
+  CHECK(signed_angles(blocks[4]) == angles{30.0, -20.0});
+  CHECK(std::ranges::find(of_blocks,
+                          "arm.csv: theta_i is taken to be 45 degrees, as stated above the header line, and "
+                          "below it as stated above each block of samples") != of_blocks.end());
+  check_text_refused(percent + "# theta_i: 45\n# theta_i: 30\n" + table, {"theta_i", "twice", "45 and 30", "once"});
   const auto hemisphere = read_samples(percent + "# theta_i: 30\n# phi_i: 90\ntheta_o;phi_o;value\n45;270;1\n", "x");
   CHECK(hemisphere[0].angles().theta_d == doctest::Approx(gonio::radians(37.5)));
   // A column overrides the stated angle.

@@ -67,6 +67,9 @@ std::pair<measured_surface, measured_surface> read_both(const std::filesystem::p
     if (of_part.are_wavelengths() && of_reference.are_wavelengths())
       gonio::refuse({path.native(), ": its wavelengths differ from those of ", given.reference.native(),
                      ", but check needs the same wavelengths"});
+    if ((of_part.size() == 1) != (of_reference.size() == 1))
+      gonio::refuse({path.native(), ": has ", counted(of_part.size(), "channel"), ", but ", given.reference.native(),
+                     " has ", of_reference.size(), ", expected the same channels"});
     part.samples = as_colours(path, part.samples).colours();
     reference.samples = as_colours(given.reference, reference.samples).colours();
   }

@@ -16,8 +16,10 @@
 #include <gonio/model/physical_properties.hpp>
 
 #include <array>
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 namespace cli {
@@ -95,6 +97,22 @@ void require_possible(const fit_command_options& options) {
                    ", write a .bsdf file"});
 }
 
+/// Refuses samples whose half vectors have all about the same azimuth: they do not tell the two slopes of an
+/// anisotropic model apart.
+void require_azimuths(const gonio::sample_set& samples, const fit_command_options& options) {
+  std::optional<double> first;
+  for (const gonio::sample& each : samples) {
+    const auto& [wi, wo] = each.directions.pair();
+    if (each.angles().theta_h < gonio::radians(1.0)) continue;
+    const double azimuth = std::atan2(wi.y() + wo.y(), wi.x() + wo.x());
+    if (!first) first = azimuth;
+    if (std::abs(std::remainder(azimuth - *first, std::numbers::pi)) > gonio::radians(5.0)) return;
+  }
+  gonio::refuse({options.measurements.native(), ": all half vectors have the same azimuth, but --model ",
+                 options.choice.model,
+                 " needs samples at several azimuths of the surface (theta_i,phi_i,theta_o,phi_o)"});
+}
+
 /// Writes an anisotropic model as a table for renderers, and draws it.
 void write_turned(const fit_command_options& options, const gonio::model::analytic_brdf& model) {
   const gonio::thread_count threads = options.choice.fit.threads;
@@ -133,6 +151,7 @@ void fit(const fit_command_options& options) {
   if (table) require_unused(options.reading, options.measurements);
   gonio::io::sample_file measured;
   if (!table) measured = read_colour_file(options.measurements, options.reading);
+  if (is_anisotropic(options.choice)) require_azimuths(measured.samples, options);
   const auto observations =
       table ? gonio::model::fit_observations(*table, options.choice.fit.threads, options.cell_weights)
             : gonio::model::fit_observations(measured.samples);

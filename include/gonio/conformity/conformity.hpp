@@ -6,6 +6,7 @@
 /// reference, as `sample_process` estimates its scale. Error rates on measured materials: docs/results/conformity.md.
 
 #include <gonio/core/rgb.hpp>
+#include <gonio/core/turned_pair.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/reconstruction.hpp>
 
@@ -40,7 +41,8 @@ struct conformity_options {
   /// 1976 difference, linearised. The colours are reflectance factors under D65. The verdict then uses only
   /// `worst_p_value`, and no other tolerance is allowed.
   double delta_e = 0.0;
-  /// Half and difference angles that differ by at most this are the same direction, radians.
+  /// Pairs of light and viewer are the same direction if, after a rotation about the normal or a swap of both, each
+  /// differs by at most this angle, radians.
   double same_direction = 0.01 * std::numbers::pi / 180.0;
 };
 
@@ -91,7 +93,7 @@ namespace detail {
 /// The n samples of a part, followed by the samples of a reference: N samples together.
 struct conformity_samples {
   Eigen::Index parts = 0;
-  std::vector<half_difference> angles;
+  std::vector<turned_pair> pairs;
   Eigen::MatrixXd mapped;      ///< mapped reflectance minus the prior's mean, N x channels
   Eigen::MatrixXd covariance;  ///< of the mapped reflectance of one channel, according to the model, N x N
   double independent = 0.0;    ///< the model's error variance that is independent in each direction
@@ -128,9 +130,12 @@ void require_possible(const conformity_options& options, Eigen::Index channels);
 /// Returns 1 if all columns are equal, otherwise the number of columns.
 [[nodiscard]] Eigen::Index distinct_channels(const Eigen::MatrixXd& values);
 
-/// Returns the positions of the measurements in the same direction, given by its angles.
-[[nodiscard]] std::vector<Eigen::Index> same_directions(const std::vector<location>& locations,
-                                                        const half_difference& angles, double limit);
+/// Returns pairs of light and viewer with these angles.
+[[nodiscard]] std::vector<turned_pair> pairs_of(const std::vector<location>& locations);
+
+/// Returns the positions of all pairs in the same direction as that at a position, ascending.
+[[nodiscard]] std::vector<Eigen::Index> same_directions(const std::vector<turned_pair>& pairs, Eigen::Index position,
+                                                        double limit);
 
 /// Returns the standard deviation of a value's noise in the metric's domain.
 template <error_metric Metric>
@@ -203,7 +208,7 @@ template <error_metric Metric>
   model.grazing_variance = 0.0;  // one variance for all errors, as in the calibration of p-values
   const sample_process process = reconstruction<Metric>{estimator.prior(), model}.process_of(both);
   detail::conformity_samples samples{.parts = part.size(),
-                                     .angles = both.angles(),
+                                     .pairs = detail::pairs_of(both.locations),
                                      .mapped = process.values(),
                                      .covariance = process.covariance(),
                                      .independent = model.error_variance,
@@ -248,9 +253,10 @@ template <error_metric Metric>
     refuse({"noise can be estimated from repeats among at most ", most_samples, " samples, not ", samples.size(),
             ": give the noise instead"});
   const Eigen::Index channels = detail::distinct_channels(samples.values);
+  const std::vector<turned_pair> pairs = detail::pairs_of(samples.locations);
   double squares = 0.0, freedom = 0.0;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    const auto same = detail::same_directions(samples.locations, samples.locations[i].angles, options.same_direction);
+    const auto same = detail::same_directions(pairs, i, options.same_direction);
     // Count each direction once, at its first sample.
     if (same.front() != i || same.size() < 2) continue;
     const location& at = samples.locations[i];

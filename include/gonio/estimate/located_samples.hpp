@@ -44,8 +44,6 @@ struct located_samples {
   /// Returns the samples at their invisible wavelengths; none if no wavelength is visible, or all are.
   [[nodiscard]] std::optional<located_samples> at_invisible_wavelengths() const;
 
-  [[nodiscard]] std::vector<half_difference> angles() const;
-
   /// Returns the samples at the given positions.
   [[nodiscard]] located_samples subset(const std::vector<Eigen::Index>& positions) const;
 };

@@ -146,8 +146,8 @@ reconstruction<Metric>::reconstruction(pca<Metric> prior, const discrepancy_mode
     refuse({"the error variance of a discrepancy must be positive and finite, not ", model.error_variance});
   if (!positive(model.variance))
     refuse({"the variance of a discrepancy must be positive and finite, not ", model.variance});
-  if (model.most_centres < 1 || model.most_samples < 1)
-    refuse("most_centres and most_samples of a discrepancy must be at least 1");
+  if (model.most_centres < 1 || model.most_samples < 1 || !(model.effective_samples >= 1.0))
+    refuse("most_centres, most_samples and effective_samples of a discrepancy must be at least 1");
 }
 
 template <error_metric Metric>
@@ -206,9 +206,15 @@ typename reconstruction<Metric>::solved reconstruction<Metric>::solve(
 template <error_metric Metric>
 typename reconstruction<Metric>::solved reconstruction<Metric>::solve_around_centres(located_samples kept) const {
   if (kept.size() > model().most_samples) kept = kept.subset(random_choice(kept.size(), model().most_samples, 0));
-  const Eigen::VectorXd variances = error_variances(kept);
-  for (Eigen::Index i = 0; i < kept.weights.size(); ++i)
-    kept.weights.data()[i] *= model().error_variance / variances[i % kept.size()];
+  const Eigen::VectorXd variances = error_variances(kept), crowding = crowding_variances(model(), kept.locations);
+  double alone = 0.0, crowded = 0.0;  // total weights without and with crowding
+  for (Eigen::Index i = 0; i < kept.weights.size(); ++i) {
+    const Eigen::Index sample = i % kept.size();
+    double& weight = kept.weights.data()[i];
+    alone += weight / variances[sample];
+    weight *= model().error_variance / (variances[sample] + crowding[sample]);
+    crowded += weight / model().error_variance;
+  }
   std::vector<half_difference> centres;
   for (const Eigen::Index i : random_choice(kept.size(), model().most_centres, 0))
     centres.push_back(kept.locations[i].angles);
@@ -219,6 +225,7 @@ typename reconstruction<Metric>::solved reconstruction<Metric>::solve_around_cen
                           read_rows_at(whitened, all.subspan(range.begin, range.size()), out);
                         }};
   solution found = solve_rows(tikhonov(expected_.observations * model().error_variance), rows, kept, threads_);
+  found.report.residual *= std::sqrt(alone / crowded);  // state the misfit as if no samples were crowded
   // The last weights are those of combinations of covariance functions. Convert them to weights of the functions.
   Eigen::MatrixXd last(smooth.size(), found.weights.cols());
   const Eigen::Index first = found.weights.rows() - last.rows();

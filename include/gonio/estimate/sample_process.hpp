@@ -47,6 +47,12 @@ struct discrepancy_model {
   double grazing_variance = 0.05;
   doubt_model doubt = {};
   double noise = 0.0;  ///< standard deviation of the measurements, relative to their values: 0.02 is 2 %
+  /// The largest effective number of samples crowded at one theta_d, in fits of more than `most_centres` samples. The
+  /// crowd of a sample is the number n of samples within 1.5 degrees of its theta_d, minus twice the number that there
+  /// would be if theta_d was uniform. If n is larger than `effective_samples`, the sample's error variance is
+  /// multiplied by n / `effective_samples`. Samples at one theta_d share errors: thousands of them in an image tell the
+  /// components little more than a few hundred. docs/decisions/0037-certainty-of-scans.md.
+  double effective_samples = 500.0;
   /// Up to this many samples, the process is exact. If there are more, only this many random samples are centres of the
   /// discrepancy's functions, which makes the discrepancy smoother.
   Eigen::Index most_centres = 1000;
@@ -60,6 +66,10 @@ struct discrepancy_model {
 
 /// Returns the variance of a sample's error at some angles, without noise.
 [[nodiscard]] double error_variance_at(const discrepancy_model& model, const half_difference& angles) noexcept;
+
+/// Returns by how much the error variance of each sample grows because samples are crowded at one theta_d
+/// (`discrepancy_model::effective_samples`). O(n log n) for n samples.
+[[nodiscard]] Eigen::VectorXd crowding_variances(const discrepancy_model& model, std::span<const location> locations);
 
 /// The k functions of a prior at n locations.
 struct located_rows {

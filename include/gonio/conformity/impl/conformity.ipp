@@ -77,20 +77,45 @@ GONIO_INLINE located_samples both_of(const located_samples& part, const located_
   return both;
 }
 
-/// Returns true if two directions on an isotropic material differ by at most `limit`. A difference of phi_d counts as
-/// the angle by which it moves light and viewer.
-[[nodiscard]] inline bool is_same(const half_difference& a, const half_difference& b, double limit) {
-  const double turn = std::remainder(a.phi_d - b.phi_d, std::numbers::pi);
-  return std::abs(a.theta_h - b.theta_h) <= limit && std::abs(a.theta_d - b.theta_d) <= limit &&
-         std::abs(turn) * std::sin(std::max(a.theta_d, b.theta_d)) <= limit;
+[[nodiscard]] inline bool is_same(const turned_pair& a, const turned_pair& b, double limit) {
+  return a.agrees(b, limit) || a.agrees(b.swapped(), limit);
 }
 
-GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<location>& locations,
-                                                       const half_difference& angles, double limit) {
+GONIO_INLINE std::vector<turned_pair> pairs_of(const std::vector<location>& locations) {
+  std::vector<turned_pair> pairs;
+  for (const location& at : locations) pairs.emplace_back(to_directions(at.angles));
+  return pairs;
+}
+
+GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<turned_pair>& pairs, Eigen::Index position,
+                                                       double limit) {
   std::vector<Eigen::Index> same;
-  for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
-    if (is_same(locations[i].angles, angles, limit)) same.push_back(i);
+  for (Eigen::Index i = 0; i < std::ssize(pairs); ++i)
+    if (is_same(pairs[i], pairs[position], limit)) same.push_back(i);
   return same;
+}
+
+/// If the reference's samples in one direction differ by more than their noise explains, adds the rest to the noise of
+/// all samples in this direction: an instrument may read other values after light and viewer are swapped. Up to the
+/// 99.9 % quantile of their variance, all of it counts as explained.
+GONIO_INLINE void add_contradictions(conformity_samples& samples, double limit) {
+  const Eigen::MatrixXd noise = samples.noise;
+  for (Eigen::Index j = 0; j < samples.mapped.rows(); ++j) {
+    std::vector<Eigen::Index> references = same_directions(samples.pairs, j, limit);
+    std::erase_if(references, [&](Eigen::Index i) { return i < samples.parts; });
+    if (references.size() < 2) continue;
+    const auto count = static_cast<double>(references.size());
+    const double explained = chi_square_quantile(0.999, count - 1.0) / (count - 1.0);
+    for (Eigen::Index c = 0; c < noise.cols(); ++c) {
+      double mean = 0.0, squares = 0.0, of_noise = 0.0;
+      for (const Eigen::Index i : references) mean += samples.mapped(i, c) / count;
+      for (const Eigen::Index i : references) {
+        squares += (samples.mapped(i, c) - mean) * (samples.mapped(i, c) - mean) / (count - 1.0);
+        of_noise += noise(i, c) / count;
+      }
+      samples.noise(j, c) += std::max(squares - explained * of_noise, 0.0);
+    }
+  }
 }
 
 /// The differences between part and reference are the product of `rows`, n x N, with the mapped values of all N
@@ -122,7 +147,7 @@ struct difference_operator {
   for (Eigen::Index i = 0; i < n; ++i) {
     found.rows(i, i) = 1.0;
     for (Eigen::Index j = n; j < all; ++j)
-      if (is_same(samples.angles[i], samples.angles[j], limit)) {
+      if (is_same(samples.pairs[i], samples.pairs[j], limit)) {
         found.rows(i, j) = -1.0;
         ++found.shared[i];
       }
@@ -314,8 +339,9 @@ GONIO_INLINE conformity compare_samples(conformity_samples samples, const confor
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), channels = samples.mapped.cols();
   for (Eigen::Index i = 0; i < all; ++i)
     for (Eigen::Index j = 0; j < all; ++j)
-      if (i != j && is_same(samples.angles[i], samples.angles[j], options.same_direction))
+      if (i != j && is_same(samples.pairs[i], samples.pairs[j], options.same_direction))
         samples.covariance(i, j) += samples.independent;
+  add_contradictions(samples, options.same_direction);
 
   const difference_operator by = differences(samples, options.same_direction);
   const Eigen::MatrixXd residuals = product(by.rows, samples.mapped);

@@ -81,12 +81,6 @@ GONIO_INLINE std::optional<located_samples> located_samples::at_invisible_wavele
   return rest;
 }
 
-GONIO_INLINE std::vector<half_difference> located_samples::angles() const {
-  std::vector<half_difference> all;
-  for (const location& at : locations) all.push_back(at.angles);
-  return all;
-}
-
 GONIO_INLINE located_samples located_samples::subset(const std::vector<Eigen::Index>& positions) const {
   const auto count = std::ssize(positions);
   located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, values.cols()),

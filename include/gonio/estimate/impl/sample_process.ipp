@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,24 @@ GONIO_INLINE double grazing_share(const half_difference& angles, double reach) n
 GONIO_INLINE double error_variance_at(const discrepancy_model& model, const half_difference& angles) noexcept {
   if (model.grazing_variance == 0.0) return model.error_variance;
   return model.error_variance + model.grazing_variance * grazing_share(angles, radians(2.5));
+}
+
+GONIO_INLINE Eigen::VectorXd crowding_variances(const discrepancy_model& model, std::span<const location> locations) {
+  constexpr double reach = radians(1.5);
+  // Twice the number of samples that would be within reach if theta_d was uniform.
+  const double usual = 2.0 * (4.0 * reach / std::numbers::pi) * static_cast<double>(locations.size());
+  std::vector<double> sorted;
+  for (const location& at : locations) sorted.push_back(at.angles.theta_d);
+  std::ranges::sort(sorted);
+  Eigen::VectorXd variances(std::ssize(locations));
+  for (Eigen::Index i = 0; i < variances.size(); ++i) {
+    const half_difference& angles = locations[i].angles;
+    const auto together = std::ranges::upper_bound(sorted, angles.theta_d + reach) -
+                          std::ranges::lower_bound(sorted, angles.theta_d - reach);
+    const double crowd = static_cast<double>(together) - usual;
+    variances[i] = error_variance_at(model, angles) * std::max(crowd / model.effective_samples - 1.0, 0.0);
+  }
+  return variances;
 }
 
 namespace detail {

@@ -87,7 +87,7 @@ class sample_header {
   [[nodiscard]] bool add_wavelength(const written_column& written, const text_position& position);
   void require_named(const sample_reading& reading, const text_position& position) const;
   void read_matrix(const std::vector<written_column>& names, const text_position& position);
-  void find_stated(std::span<const stated_angle> stated);
+  void find_stated(std::span<const stated_angle> stated, const text_position& position);
   void find_directions(const text_position& position);
   void find_values(bool needs_value, const text_position& position);
   void use_r_as_value(const text_position& position);

@@ -103,7 +103,8 @@ class sample_rows {
   std::optional<double> wavelength_;
   std::optional<theta_o_sign> sign_;
   sample_row numbers_ = sample_row(sample_columns.size());
-  std::vector<stated_angle> stated_angles_;
+  std::vector<stated_angle> stated_angles_;  ///< those above the header line, then those of the current sample
+  bool changes_stated_angle_ = false;
   std::size_t cell_ = 0;  ///< the field of the current cell in a matrix's line
   std::size_t rows_ = 0, missing_ = 0;
   std::string first_missing_, missing_message_;

@@ -5,6 +5,7 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/statistics.hpp>
+#include <gonio/core/turned_pair.hpp>
 #include <gonio/model/measured_properties.hpp>
 #include <gonio/model/physical_properties.hpp>
 
@@ -17,31 +18,6 @@
 #include <vector>
 
 namespace gonio::model::detail {
-
-/// A pair of directions up to a rotation about the normal: their polar angles and the azimuth from light to viewer.
-struct turned_pair {
-  double theta_i, theta_o, azimuth;
-
-  explicit turned_pair(const direction_pair& pair)
-      : theta_i(polar_angle(pair.wi)),
-        theta_o(polar_angle(pair.wo)),
-        azimuth(gonio::azimuth(pair.wo) - gonio::azimuth(pair.wi)) {}
-
-  [[nodiscard]] turned_pair swapped() const noexcept {
-    turned_pair other = *this;
-    std::swap(other.theta_i, other.theta_o);
-    other.azimuth = -azimuth;
-    return other;
-  }
-
-  /// Returns true if two pairs agree within a tolerance. A difference of azimuth counts as the angle by which it moves
-  /// the direction nearer to the normal.
-  [[nodiscard]] bool agrees(const turned_pair& other, double tolerance) const noexcept {
-    const double turn = std::abs(std::remainder(azimuth - other.azimuth, 2.0 * std::numbers::pi));
-    return std::abs(theta_i - other.theta_i) <= tolerance && std::abs(theta_o - other.theta_o) <= tolerance &&
-           turn * std::sin(std::min(theta_i, theta_o)) <= tolerance;
-  }
-};
 
 [[nodiscard]] GONIO_INLINE bool same_directions(const direction_pair& a, const direction_pair& b, double tolerance) {
   return angle_between(a.wi, b.wi) <= tolerance && angle_between(a.wo, b.wo) <= tolerance;
@@ -193,7 +169,7 @@ GONIO_INLINE sample_symmetries compare_equal_samples(const sample_set& samples, 
   const detail::boxed_samples boxed(samples, tolerance);
   detail::pair_differences repeated, turned, reciprocal;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
-    const detail::turned_pair &here = boxed[i], swapped = here.swapped();
+    const turned_pair &here = boxed[i], swapped = here.swapped();
     int partners = 0;
     boxed.around(here, i, [&](Eigen::Index j) {
       if (!boxed[j].agrees(here, tolerance)) return true;

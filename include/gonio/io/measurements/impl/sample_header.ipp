@@ -121,7 +121,7 @@ inline constexpr std::size_t longest_name = 40;
   for (const written_column& each : names) add(each, reading, position);
   ignore_tristimulus(names);
   require_named(reading, position);
-  find_stated(stated);
+  find_stated(stated, position);
   find_directions(position);
   find_values(needs_value, position);
   find_weights(position);
@@ -142,11 +142,18 @@ inline constexpr std::size_t longest_name = 40;
 
 /// Adds the stated angles that have no column. Adds an azimuth only if the other azimuth has a column; otherwise the
 /// file is in-plane.
-[[gnu::cold]] GONIO_INLINE void sample_header::find_stated(std::span<const stated_angle> stated) {
+[[gnu::cold]] GONIO_INLINE void sample_header::find_stated(std::span<const stated_angle> stated,
+                                                           const text_position& position) {
   if (!has_any(angle_group)) return;
   const auto take = [&](std::size_t column) {
-    const auto found = std::ranges::find(stated, column, &stated_angle::column);
-    if (!has(column) && found != stated.end()) stated_.push_back(*found);
+    if (has(column)) return;
+    for (const stated_angle& each : stated) {
+      if (each.column != column) continue;
+      if (stated_.empty() || stated_.back().column != column) stated_.push_back(each);
+      if (each.degrees != stated_.back().degrees)
+        position.refuse({sample_columns[column], " is stated twice above the header line, ",
+                         shortest(stated_.back().degrees), " and ", shortest(each.degrees), " degrees, expected once"});
+    }
   };
   const std::size_t theta_i = angle_group.first, phi_i = theta_i + 1, theta_o = theta_i + 2, phi_o = theta_i + 3;
   for (const std::size_t polar : {theta_i, theta_o}) take(polar);

@@ -63,7 +63,7 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_comment(std::string_view comment) {
   const comment_entry entry = entry_of(comment);
   keep(provenance_, entry);
-  if (header_.columns().empty()) read_stated_angle(comment);
+  read_stated_angle(comment);
   if (entry.key == "theta-o-sign") return read_sign(entry.value);
   if (entry.key == "source-half-angle") return read_half_angle(half_angle_group.first, entry);
   if (entry.key == "receiver-half-angle") return read_half_angle(half_angle_group.first + 1, entry);
@@ -82,7 +82,8 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
     csv_.position().refuse({"theta-o-sign ", in_quotes(value), " is unknown, expected light or mirror"});
   const theta_o_sign stated = value == "light" ? theta_o_sign::light : theta_o_sign::mirror;
   if (sign_.value_or(stated) != stated)
-    csv_.position().refuse({"the file says theta-o-sign ", value, ", but --theta-o-sign contradicts it"});
+    csv_.position().refuse({"the file says theta-o-sign ", value, ", but ",
+                            reading_.sign ? "--theta-o-sign contradicts it" : "an earlier line says the other sign"});
   sign_ = stated;
 }
 
@@ -93,7 +94,15 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_rows::read_stated_angle(std::string_view line) {
-  if (const auto found = stated_angle_of(line, columns_named())) stated_angles_.push_back(*found);
+  const auto found = stated_angle_of(line, columns_named());
+  if (!found) return;
+  if (header_.columns().empty()) return stated_angles_.push_back(*found);
+  // Below the header line, an angle applies to the samples below it.
+  for (stated_angle& stated : stated_angles_)
+    if (stated.column == found->column) {
+      changes_stated_angle_ = changes_stated_angle_ || stated.degrees != found->degrees;
+      stated.degrees = found->degrees;
+    }
 }
 
 [[gnu::cold]] GONIO_INLINE column_finder sample_rows::columns_named() const {
@@ -113,6 +122,7 @@ GONIO_INLINE bool sample_rows::is_of_row(std::size_t field) const noexcept {
     gonio::refuse({csv_.position().name, ": is empty, expected a header line that names the columns"});
   for (const std::string_view line : csv_.passed_over()) read_stated_angle(line);
   header_.read(csv_, reading_, needs_value_, stated_angles_);
+  stated_angles_ = header_.stated();
   cell_ = header_.columns().size();
   quantity_.state(header_.quantity(), csv_.position());
   numbers_.resize(sample_columns.size() + 1 + header_.wavelengths().size());
@@ -132,7 +142,7 @@ GONIO_INLINE void sample_rows::read_fields() {
       read_number_of(column, field, percent_signs);
   }
   if (const auto& matrix = header_.matrix()) numbers_[matrix->across] = matrix->angles[cell_ - 1];
-  for (const stated_angle& stated : header_.stated()) numbers_[stated.column] = stated.degrees;
+  for (const stated_angle& stated : stated_angles_) numbers_[stated.column] = stated.degrees;
   for (const std::size_t column : header_.columns_in_radians()) numbers_[column] = degrees(numbers_[column]);
   check_percent_signs(percent_signs);
   check_weights();
@@ -288,7 +298,8 @@ GONIO_INLINE void sample_rows::check_weights() const {
     reading_.note(message_of({name, ": is read as a matrix, ", description(*matrix)}));
   for (const stated_angle& stated : header_.stated())
     reading_.note(message_of({name, ": ", sample_columns[stated.column], " is taken to be ", shortest(stated.degrees),
-                              " degrees, as stated above the header line"}));
+                              " degrees, as stated above the header line",
+                              changes_stated_angle_ ? ", and below it as stated above each block of samples" : ""}));
   if (header_.values().first == tristimulus_group.first)
     reading_.note(message_of({name, ": X, Y and Z are read as CIE tristimulus values under D65"}));
 }
