@@ -28,6 +28,7 @@
 #include <gonio/core/spectrum.hpp>
 #include <gonio/core/spelling.hpp>
 #include <gonio/core/statistics.hpp>
+#include <gonio/core/turned_pair.hpp>
 #include <gonio/core/uninitialised.hpp>
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/core/wavelengths.hpp>

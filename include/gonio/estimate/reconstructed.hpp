@@ -39,8 +39,8 @@ enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 /// deviations, for measured materials whose families are not in the prior, and samples in all directions, below some
 /// theta_h, in planes, or in images. The interval holds for such materials, averaged over directions. `unknown` is the
 /// variance after measuring divided by the variance before. It changes only the 68 % factor, because errors near
-/// samples have heavier tails than errors far from all samples. The factor does not depend on the number of samples. So
-/// intervals are too wide after thousands of samples all over the hemisphere, and too narrow after thousands in images.
+/// samples have heavier tails than errors far from all samples. The factor does not depend on the number of samples, so
+/// intervals are too wide after thousands of samples all over the hemisphere.
 [[nodiscard]] double deviations_of(confidence_level level, double unknown) noexcept;
 
 /// The uncertainty of a reconstruction in a few numbers.
