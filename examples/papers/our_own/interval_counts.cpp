@@ -79,8 +79,8 @@ interval_counts count_within(const interval_counts::reconstructed_type& known, c
   const std::vector<Eigen::Index> judged = judged_cells(table.cells(), smallest_theta_h);
   std::vector<gonio::location> locations;
   for (const Eigen::Index cell : judged) locations.push_back(gonio::locate_cell(table.cells(), cell));
-  const Eigen::VectorXd half_68 = known.half_widths(locations, gonio::confidence_level::sixty_eight_percent),
-                        half_95 = known.half_widths(locations, gonio::confidence_level::ninety_five_percent);
+  const std::vector<double> half_68 = known.half_widths(locations, gonio::confidence_level::sixty_eight_percent),
+                            half_95 = known.half_widths(locations, gonio::confidence_level::ninety_five_percent);
   for (Eigen::Index i = 0; i < std::ssize(judged); ++i) {
     const gonio::rgb estimate = table.at(judged[i]);
     counts.add(locations[i], truth.at(judged[i]).max(0.0), known.interval(estimate, locations[i], half_68[i]),

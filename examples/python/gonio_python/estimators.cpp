@@ -301,16 +301,10 @@ direction_pairs pairs_above_horizon(const py::object& wi, const py::object& wo) 
   return pairs;
 }
 
-/// Calls body(i, location, half width) for each pair, in parallel.
-template <class Body>
-void for_each_half_width(const reconstructed_brdf& fit, const direction_pairs& pairs, gonio::confidence_level level,
-                         Body&& body) {
-  gonio::for_each_block(pairs.size(), 64, [&](gonio::block range) {
-    std::vector<gonio::location> some;
-    for (Eigen::Index i = range.begin; i < range.end; ++i) some.push_back(fit.located(pairs.wi(i), pairs.wo(i)));
-    const Eigen::VectorXd widths = fit.half_widths(some, level);
-    for (Eigen::Index i = 0; i < range.size(); ++i) body(range.begin + i, some[i], widths[i]);
-  });
+std::vector<gonio::location> locations_of(const reconstructed_brdf& fit, const direction_pairs& pairs) {
+  std::vector<gonio::location> locations;
+  for (Eigen::Index i = 0; i < pairs.size(); ++i) locations.push_back(fit.located(pairs.wi(i), pairs.wo(i)));
+  return locations;
 }
 
 py::tuple intervals(const reconstructed_brdf& fit, const py::object& wi, const py::object& wo, double probability) {
@@ -320,8 +314,10 @@ py::tuple intervals(const reconstructed_brdf& fit, const py::object& wi, const p
   double *lowest = low.mutable_data(), *highest = high.mutable_data();
   {
     const py::gil_scoped_release released;
-    for_each_half_width(fit, pairs, level, [&](Eigen::Index i, const gonio::location& at, double half_width) {
-      const gonio::reflectance_interval found = fit.interval(fit(pairs.wi(i), pairs.wo(i)), at, half_width);
+    const std::vector<gonio::location> locations = locations_of(fit, pairs);
+    const std::vector<double> widths = fit.half_widths(locations, level);
+    gonio::for_each_index(pairs.size(), 64, [&](Eigen::Index i) {
+      const gonio::reflectance_interval found = fit.interval(fit(pairs.wi(i), pairs.wo(i)), locations[i], widths[i]);
       std::copy_n(found.low.data(), 3, lowest + 3 * i);
       std::copy_n(found.high.data(), 3, highest + 3 * i);
     });
@@ -334,9 +330,8 @@ py::array_t<double> known_to(const reconstructed_brdf& fit, const py::object& wi
   py::array_t<double> shares = results_for(pairs, 1);
   double* to = shares.mutable_data();
   const py::gil_scoped_release released;
-  for_each_half_width(
-      fit, pairs, gonio::confidence_level::sixty_eight_percent,
-      [&](Eigen::Index i, const gonio::location&, double half_width) { to[i] = std::expm1(half_width); });
+  const auto widths = fit.half_widths(locations_of(fit, pairs), gonio::confidence_level::sixty_eight_percent);
+  std::ranges::transform(widths, to, [](double width) { return std::expm1(width); });
   return shares;
 }
 

@@ -218,7 +218,8 @@ void add_check(command& app, const std::vector<std::string>& words) {
       .capture_default_str();
   command
       .add_option("--same-within", options->same_within,
-                  "Directions count as the same if their half and difference angles differ by at most this, in degrees")
+                  "Directions count as the same if light and viewer, turned about the normal or swapped, differ by at "
+                  "most this, in degrees")
       .check(check::range(0.0, 5.0))
       .capture_default_str();
   add_prior_option(command, options->prior);

@@ -31,9 +31,9 @@ struct turned_pair {
   /// Returns true if two pairs agree within a tolerance. A difference of azimuth counts as the angle by which it moves
   /// the direction nearer to the normal.
   [[nodiscard]] bool agrees(const turned_pair& other, double tolerance) const noexcept {
+    if (std::abs(theta_i - other.theta_i) > tolerance || std::abs(theta_o - other.theta_o) > tolerance) return false;
     const double turn = std::abs(std::remainder(azimuth - other.azimuth, 2.0 * std::numbers::pi));
-    return std::abs(theta_i - other.theta_i) <= tolerance && std::abs(theta_o - other.theta_o) <= tolerance &&
-           turn * std::sin(std::min(theta_i, theta_o)) <= tolerance;
+    return turn * std::sin(std::min(theta_i, theta_o)) <= tolerance;
   }
 };
 

@@ -176,15 +176,20 @@ class reconstructed {
   }
   /// Returns half the widths of the intervals at p locations. O(p n (n + k)), in a fifth of the time of p single
   /// calls.
-  [[nodiscard]] Eigen::VectorXd half_widths(std::span<const location> locations, confidence_level level) const {
-    const located_rows others = locate_rows(prior_, locations);
-    const Eigen::VectorXd before = doubting_.deviations_before(others);
-    Eigen::VectorXd after = doubting_.deviations(others);
-    for (Eigen::Index i = 0; i < after.size(); ++i) {
-      const double unknown = after[i] / before[i];
-      after[i] *= deviations_of(level, unknown * unknown) * std::sqrt(scale_);
-    }
-    return after;
+  [[nodiscard]] std::vector<double> half_widths(std::span<const location> locations, confidence_level level) const {
+    std::vector<double> all(locations.size());
+    for_each_block(
+        std::ssize(locations), 64,
+        [&](block range) {
+          const located_rows others = locate_rows(prior_, locations.subspan(range.begin, range.size()));
+          const Eigen::VectorXd before = doubting_.deviations_before(others), after = doubting_.deviations(others);
+          for (Eigen::Index i = 0; i < range.size(); ++i) {
+            const double unknown = after[i] / before[i];
+            all[range.begin + i] = deviations_of(level, unknown * unknown) * std::sqrt(scale_) * after[i];
+          }
+        },
+        threads_);
+    return all;
   }
 
   /// Returns the interval around a value at a location, for each channel separately; never below zero.
@@ -214,7 +219,7 @@ class reconstructed {
   [[nodiscard]] double known_to(const direction& wi, const direction& wo) const { return known_to(located(wi, wo)); }
   /// Returns `known_to` for all given cells. A coarse grid is enough, because the uncertainty is smooth.
   [[nodiscard]] std::vector<double> known_to(const valid_cells& cells) const {
-    std::vector<double> all = half_widths_at_cells(cells);
+    std::vector<double> all = half_widths_at(cells);
     for (double& each : all) each = std::expm1(each);
     return all;
   }
@@ -223,12 +228,11 @@ class reconstructed {
   [[nodiscard]] gonio::certainty certainty() const {
     std::vector<location> lobe;
     for (const half_difference& angles : detail::highlight_angles()) lobe.push_back(locate(prior_.cells(), angles));
-    const Eigen::VectorXd highlight = half_widths(lobe, confidence_level::ninety_five_percent);
     double measured_to = 0.0;
     for (const Eigen::Index i : found_.kept())
       measured_to = std::max(measured_to, samples_->locations[i].angles.theta_h);
-    return detail::certainty_of(half_widths_at_cells(detail::certainty_cells()),
-                                {highlight.data(), highlight.data() + highlight.size()}, measured_to);
+    return detail::certainty_of(half_widths_at(detail::certainty_cells()),
+                                half_widths(lobe, confidence_level::ninety_five_percent), measured_to);
   }
 
   /// Returns how well the materials of the prior explain the samples.
@@ -279,19 +283,11 @@ class reconstructed {
 
  private:
   /// Returns half the widths of the 68 % intervals at some cells.
-  [[nodiscard]] std::vector<double> half_widths_at_cells(const valid_cells& cells) const {
-    std::vector<double> all(cells.size());
-    for_each_block(
-        cells.size(), 64,
-        [&](block range) {
-          std::vector<location> some;
-          for (Eigen::Index cell = range.begin; cell < range.end; ++cell)
-            some.push_back(locate(prior_.cells(), cells.angles(cell)));
-          const Eigen::VectorXd widths = half_widths(some, confidence_level::sixty_eight_percent);
-          std::copy_n(widths.data(), widths.size(), all.data() + range.begin);
-        },
-        threads_);
-    return all;
+  [[nodiscard]] std::vector<double> half_widths_at(const valid_cells& cells) const {
+    std::vector<location> locations;
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
+      locations.push_back(locate(prior_.cells(), cells.angles(cell)));
+    return half_widths(locations, confidence_level::sixty_eight_percent);
   }
   /// Returns a value of the fit. If it is in a dip at the mirror direction, raises it by the values at the prior's rows
   /// of larger theta_h.

@@ -77,10 +77,6 @@ GONIO_INLINE located_samples both_of(const located_samples& part, const located_
   return both;
 }
 
-[[nodiscard]] inline bool is_same(const turned_pair& a, const turned_pair& b, double limit) {
-  return a.agrees(b, limit) || a.agrees(b.swapped(), limit);
-}
-
 GONIO_INLINE std::vector<turned_pair> pairs_of(const std::vector<location>& locations) {
   std::vector<turned_pair> pairs;
   for (const location& at : locations) pairs.emplace_back(to_directions(at.angles));
@@ -89,20 +85,23 @@ GONIO_INLINE std::vector<turned_pair> pairs_of(const std::vector<location>& loca
 
 GONIO_INLINE std::vector<Eigen::Index> same_directions(const std::vector<turned_pair>& pairs, Eigen::Index position,
                                                        double limit) {
+  const turned_pair here = pairs[position], swapped = here.swapped();
   std::vector<Eigen::Index> same;
   for (Eigen::Index i = 0; i < std::ssize(pairs); ++i)
-    if (is_same(pairs[i], pairs[position], limit)) same.push_back(i);
+    if (pairs[i].agrees(here, limit) || pairs[i].agrees(swapped, limit)) same.push_back(i);
   return same;
 }
+
+/// For each sample, the positions of others.
+using positions_of_samples = std::vector<std::vector<Eigen::Index>>;
 
 /// If the reference's samples in one direction differ by more than their noise explains, adds the rest to the noise of
 /// all samples in this direction: an instrument may read other values after light and viewer are swapped. Up to the
 /// 99.9 % quantile of their variance, all of it counts as explained.
-GONIO_INLINE void add_contradictions(conformity_samples& samples, double limit) {
+GONIO_INLINE void add_contradictions(const positions_of_samples& references_of, conformity_samples& samples) {
   const Eigen::MatrixXd noise = samples.noise;
   for (Eigen::Index j = 0; j < samples.mapped.rows(); ++j) {
-    std::vector<Eigen::Index> references = same_directions(samples.pairs, j, limit);
-    std::erase_if(references, [&](Eigen::Index i) { return i < samples.parts; });
+    const std::vector<Eigen::Index>& references = references_of[j];
     if (references.size() < 2) continue;
     const auto count = static_cast<double>(references.size());
     const double explained = chi_square_quantile(0.999, count - 1.0) / (count - 1.0);
@@ -139,22 +138,17 @@ struct difference_operator {
 
 /// Returns the differences of the part from the reference. In each direction, the reference is the mean of its
 /// measurements in this direction or, if there are none, its prediction.
-[[nodiscard]] inline difference_operator differences(const conformity_samples& samples, double limit) {
+[[nodiscard]] inline difference_operator differences(const positions_of_samples& references_of,
+                                                     const conformity_samples& samples) {
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), r = all - n;
   const Eigen::Index channels = samples.mapped.cols();
   difference_operator found{Eigen::MatrixXd::Zero(n, all), std::vector<Eigen::Index>(n),
                             Eigen::MatrixXd::Identity(channels, channels)};
   for (Eigen::Index i = 0; i < n; ++i) {
     found.rows(i, i) = 1.0;
-    for (Eigen::Index j = n; j < all; ++j)
-      if (is_same(samples.pairs[i], samples.pairs[j], limit)) {
-        found.rows(i, j) = -1.0;
-        ++found.shared[i];
-      }
-    if (found.shared[i] > 0)
-      found.rows.row(i).tail(r) /= static_cast<double>(found.shared[i]);
-    else
-      found.predicts = true;
+    found.shared[i] = std::ssize(references_of[i]);
+    for (const Eigen::Index j : references_of[i]) found.rows(i, j) = -1.0 / static_cast<double>(found.shared[i]);
+    found.predicts = found.predicts || found.shared[i] == 0;
   }
   if (!found.predicts) return found;
 
@@ -337,13 +331,17 @@ inline void test_apart(const stacked_differences& all, const std::vector<Eigen::
 GONIO_INLINE conformity compare_samples(conformity_samples samples, const conformity_options& options) {
   // The model's independent error is the same in all measurements of one direction.
   const Eigen::Index n = samples.parts, all = samples.mapped.rows(), channels = samples.mapped.cols();
-  for (Eigen::Index i = 0; i < all; ++i)
-    for (Eigen::Index j = 0; j < all; ++j)
-      if (i != j && is_same(samples.pairs[i], samples.pairs[j], options.same_direction))
-        samples.covariance(i, j) += samples.independent;
-  add_contradictions(samples, options.same_direction);
+  positions_of_samples references_of;
+  for (Eigen::Index i = 0; i < all; ++i) {
+    std::vector<Eigen::Index> same = same_directions(samples.pairs, i, options.same_direction);
+    for (const Eigen::Index j : same)
+      if (i != j) samples.covariance(i, j) += samples.independent;
+    std::erase_if(same, [&](Eigen::Index j) { return j < n; });
+    references_of.push_back(std::move(same));
+  }
+  add_contradictions(references_of, samples);
 
-  const difference_operator by = differences(samples, options.same_direction);
+  const difference_operator by = differences(references_of, samples);
   const Eigen::MatrixXd residuals = product(by.rows, samples.mapped);
   stacked_differences stacked{channels, Eigen::VectorXd(channels * n), covariance_of(by, samples),
                               Eigen::VectorXd(channels * n)};

@@ -320,9 +320,9 @@ GONIO_INLINE Eigen::VectorXd sample_process::deviations_before(const located_row
   Eigen::VectorXd all(others.size());
   for (Eigen::Index i = 0; i < all.size(); ++i) {
     const half_difference& angles = others.angles[i];
-    double variance = model.variance + error_variance_at(model, angles);
-    for (Eigen::Index j = 0; j < others.rows.cols(); ++j)
-      variance += others.rows(i, j) * others.rows(i, j) / expected().observations;
+    double squares = 0.0;
+    for (Eigen::Index j = 0; j < others.rows.cols(); ++j) squares += others.rows(i, j) * others.rows(i, j);
+    double variance = squares / expected().observations + model.variance + error_variance_at(model, angles);
     if (expected().doubts)
       variance += model.doubt.variance * detail::fresnel_factor(model.doubt, angles) +
                   detail::doubted_error_variance(model, angles);
